@@ -1,0 +1,86 @@
+// A spacetime chart behind one run-time interface: what the command, the tracer and the suite hold when they do not
+// care which spacetime it is. `SpacetimeOf<M>` makes one from any metric module; nothing is written per module.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "metrics/card.hpp"
+#include "metrics/derived.hpp"
+#include "metrics/scalar/dual.hpp"
+#include "metrics/tensor.hpp"
+
+namespace xpr {
+
+class Spacetime;
+
+/// A named number, such as a parameter's value or a conserved quantity.
+struct NamedValue {
+  std::string_view name;
+  double value = 0.0;
+};
+
+/// A Killing vector K^mu at an event; K^mu p_mu is constant along every geodesic.
+struct KillingVector {
+  std::string_view name;  ///< of the constant: "E" stands for -p_t, "L_x", "L_y", "L_z", "p_x", ...
+  double sign = 1.0;      ///< the constant is sign * K^mu p_mu
+  Vec4<double> component{};
+};
+
+/// What an atlas answers when a ray has left its chart's good region: the chart to go on in and the state there.
+struct ChartSwitch {
+  const Spacetime* chart = nullptr;
+  PhaseState<double> state;
+  int sheet = 1;
+};
+
+/// A spacetime in one chart, with its parameters set. Immutable; safe to share between threads.
+class Spacetime {
+ public:
+  virtual ~Spacetime() = default;
+
+  [[nodiscard]] virtual const Card& card() const = 0;
+  [[nodiscard]] virtual std::vector<NamedValue> parameters() const = 0;
+
+  [[nodiscard]] virtual SymTensor4<double> inverse_metric(const Vec4<double>& x) const = 0;
+  [[nodiscard]] virtual SymTensor4<double> metric(const Vec4<double>& x) const = 0;
+  [[nodiscard]] virtual double hamiltonian(const PhaseState<double>& y) const = 0;
+  /// Hamilton's equations: hand-written where the module has it, else derived.
+  [[nodiscard]] virtual PhaseState<double> flow(const PhaseState<double>& y) const = 0;
+  [[nodiscard]] virtual PhaseState<double> derived_flow(const PhaseState<double>& y) const = 0;
+  /// The same flow carrying derivatives in eight directions of phase space, for Jacobians of whole rays.
+  [[nodiscard]] virtual PhaseState<Dual<double, 8>> flow(const PhaseState<Dual<double, 8>>& y) const = 0;
+  [[nodiscard]] virtual Connection<double> christoffel(const Vec4<double>& x) const = 0;
+  [[nodiscard]] virtual Curvature curvature(const Vec4<double>& x) const = 0;
+  [[nodiscard]] virtual double null_residual(const PhaseState<double>& y) const = 0;
+
+  /// The radius that stops refer to (DESIGN: Boyer-Lindquist r, areal r where spherical, |x| in flat space and media).
+  [[nodiscard]] virtual double radius(const Vec4<double>& x) const = 0;
+  /// Outermost event horizon, if there is one.
+  [[nodiscard]] virtual std::optional<double> horizon_radius() const = 0;
+  /// Default of --r-min: between the horizon and the innermost photon orbit, if there is a horizon.
+  [[nodiscard]] virtual std::optional<double> default_r_min() const = 0;
+  /// Signed proper distance l from a throat, if there is one; `sheet` is +1 on the near side.
+  [[nodiscard]] virtual std::optional<double> proper_distance(const Vec4<double>& x, int sheet) const = 0;
+  /// Whether physics and chart admit the event.
+  [[nodiscard]] virtual bool inside_domain(const Vec4<double>& x) const = 0;
+
+  [[nodiscard]] virtual std::vector<KillingVector> killing_vectors(const Vec4<double>& x) const = 0;
+  /// Carter's constant Q, where the module has a Killing tensor.
+  [[nodiscard]] virtual std::optional<double> carter_constant(const PhaseState<double>& y) const = 0;
+
+  /// Charts of one spacetime meet in its hub chart. `sheet` tells the sides of a wormhole apart where the hub does.
+  [[nodiscard]] virtual PhaseState<double> to_hub(const PhaseState<double>& y, int sheet) const = 0;
+  /// Undoes to_hub; the second member is the sheet on which the state lies.
+  [[nodiscard]] virtual std::pair<PhaseState<double>, int> from_hub(const PhaseState<double>& y) const = 0;
+
+  /// Where to go on if `y` is better described in another chart of the atlas; nothing to do otherwise.
+  [[nodiscard]] virtual std::optional<ChartSwitch> atlas_switch(const PhaseState<double>& y, int sheet) const = 0;
+};
+
+}  // namespace xpr

@@ -1,0 +1,153 @@
+// SpacetimeOf<M>: the run-time interface made from a metric module. A module must model MetricModule; it may add
+//
+//   static constexpr std::array<Parameter<Geometry>, n> parameters     its numbers, by name
+//   void validate() const                                              throws std::invalid_argument: value, allowed
+//   range PhaseState<T> flow(const PhaseState<T>&) const                     a hand-written flow
+//   std::array<KillingVectorOf<T>, n> killing_vectors(const Vec4<T>&)  beyond the ignorable coordinates' own
+//   T carter_constant(const PhaseState<T>&) const
+//   double horizon_radius() const, double default_r_min() const
+//   double proper_distance(const Vec4<double>&, int sheet) const
+//   bool inside_domain(const Vec4<double>&) const
+//   Vec4<T> to_hub(const Vec4<T>&, int sheet) const, Vec4<T> from_hub(const Vec4<T>&) const, int hub_sheet(const
+//   Vec4<double>&) const std::optional<ChartSwitch> atlas_switch(const PhaseState<double>&, int sheet, const Spacetime&
+//   self) const
+#pragma once
+
+#include <utility>
+
+#include "metrics/spacetime.hpp"
+
+namespace xpr {
+
+/// A Killing vector as a module gives it, over any scalar.
+template <class T>
+struct KillingVectorOf {
+  std::string_view name;
+  double sign = 1.0;
+  Vec4<T> component{};
+};
+
+/// The Killing vectors of M at x: those it lists, else one for each ignorable coordinate.
+template <MetricModule M, class T>
+[[nodiscard]] auto killing_vectors_of(const M& module, const Vec4<T>& x) {
+  if constexpr (requires { module.killing_vectors(x); }) {
+    return module.killing_vectors(x);
+  } else {
+    std::array<KillingVectorOf<T>, 4 - dependent_coordinates<M>> out{};
+    for (std::size_t mu = 0, k = 0; mu < 4; ++mu) {
+      if (!M::card.ignorable[mu]) continue;
+      out[k].name = mu == 0 ? std::string_view("E") : M::card.coordinates[mu].name;
+      out[k].sign = mu == 0 ? -1.0 : 1.0;
+      out[k].component[mu] = T(1.0);
+      ++k;
+    }
+    return out;
+  }
+}
+
+template <MetricModule M>
+class SpacetimeOf final : public Spacetime {
+ public:
+  /// Throws std::invalid_argument where the module's own validate() does.
+  explicit SpacetimeOf(M module) : module_(std::move(module)) {
+    if constexpr (requires { module_.validate(); }) module_.validate();
+  }
+
+  [[nodiscard]] const M& module() const { return module_; }
+  [[nodiscard]] const Card& card() const override { return M::card; }
+
+  [[nodiscard]] std::vector<NamedValue> parameters() const override {
+    std::vector<NamedValue> out;
+    if constexpr (requires { M::parameters; }) {
+      for (const auto& parameter : M::parameters) out.push_back({parameter.name, module_.*(parameter.member)});
+    }
+    return out;
+  }
+
+  [[nodiscard]] SymTensor4<double> inverse_metric(const Vec4<double>& x) const override {
+    return module_.inverse_metric(x);
+  }
+  [[nodiscard]] SymTensor4<double> metric(const Vec4<double>& x) const override { return covariant_metric(module_, x); }
+  [[nodiscard]] double hamiltonian(const PhaseState<double>& y) const override { return xpr::hamiltonian(module_, y); }
+  [[nodiscard]] PhaseState<double> flow(const PhaseState<double>& y) const override { return xpr::flow(module_, y); }
+  [[nodiscard]] PhaseState<double> derived_flow(const PhaseState<double>& y) const override {
+    return xpr::derived_flow(module_, y);
+  }
+  [[nodiscard]] PhaseState<Dual<double, 8>> flow(const PhaseState<Dual<double, 8>>& y) const override {
+    return xpr::flow(module_, y);
+  }
+  [[nodiscard]] Connection<double> christoffel(const Vec4<double>& x) const override {
+    return xpr::christoffel(module_, x);
+  }
+  [[nodiscard]] Curvature curvature(const Vec4<double>& x) const override { return xpr::curvature(module_, x); }
+  [[nodiscard]] double null_residual(const PhaseState<double>& y) const override {
+    return xpr::null_residual(module_, y);
+  }
+
+  [[nodiscard]] double radius(const Vec4<double>& x) const override { return module_.radius(x); }
+  [[nodiscard]] std::optional<double> horizon_radius() const override {
+    if constexpr (requires { module_.horizon_radius(); }) return module_.horizon_radius();
+    return std::nullopt;
+  }
+  [[nodiscard]] std::optional<double> default_r_min() const override {
+    if constexpr (requires { module_.default_r_min(); }) return module_.default_r_min();
+    return std::nullopt;
+  }
+  [[nodiscard]] std::optional<double> proper_distance([[maybe_unused]] const Vec4<double>& x,
+                                                      [[maybe_unused]] int sheet) const override {
+    if constexpr (requires { module_.proper_distance(x, sheet); }) return module_.proper_distance(x, sheet);
+    return std::nullopt;
+  }
+  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const override {
+    if constexpr (requires { module_.inside_domain(x); }) {
+      if (!module_.inside_domain(x)) return false;
+    }
+    for (std::size_t mu = 0; mu < 4; ++mu) {
+      const Coordinate& coordinate = M::card.coordinates[mu];
+      if (coordinate.kind == CoordinateKind::azimuth || coordinate.kind == CoordinateKind::polar_angle) continue;
+      if (!(x[mu] >= coordinate.lower && x[mu] <= coordinate.upper)) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::vector<KillingVector> killing_vectors(const Vec4<double>& x) const override {
+    std::vector<KillingVector> out;
+    for (const auto& k : killing_vectors_of(module_, x)) out.push_back({k.name, k.sign, k.component});
+    return out;
+  }
+  [[nodiscard]] std::optional<double> carter_constant([[maybe_unused]] const PhaseState<double>& y) const override {
+    if constexpr (requires { module_.carter_constant(y); }) return module_.carter_constant(y);
+    return std::nullopt;
+  }
+
+  [[nodiscard]] PhaseState<double> to_hub(const PhaseState<double>& y, [[maybe_unused]] int sheet) const override {
+    if constexpr (requires { module_.to_hub(y.x(), sheet); }) {
+      return map_state([&](const auto& x) { return module_.to_hub(x, sheet); },
+                       [&](const auto& x) { return module_.from_hub(x); }, y);
+    } else {
+      return y;
+    }
+  }
+  [[nodiscard]] std::pair<PhaseState<double>, int> from_hub(const PhaseState<double>& y) const override {
+    if constexpr (requires { module_.to_hub(y.x(), 1); }) {
+      int sheet = 1;
+      if constexpr (requires { module_.hub_sheet(y.x()); }) sheet = module_.hub_sheet(y.x());
+      return {map_state([&](const auto& x) { return module_.from_hub(x); },
+                        [&](const auto& x) { return module_.to_hub(x, sheet); }, y),
+              sheet};
+    } else {
+      return {y, 1};
+    }
+  }
+
+  [[nodiscard]] std::optional<ChartSwitch> atlas_switch([[maybe_unused]] const PhaseState<double>& y,
+                                                        [[maybe_unused]] int sheet) const override {
+    if constexpr (requires { module_.atlas_switch(y, sheet, *this); }) return module_.atlas_switch(y, sheet, *this);
+    return std::nullopt;
+  }
+
+ private:
+  M module_;
+};
+
+}  // namespace xpr
