@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "integrators/status.hpp"
@@ -37,8 +39,13 @@ struct EventHit {
   int sheet = 1;
 };
 
+/// Makes the stepper of a method, as make_stepper does.
+using StepperFactory = std::function<std::unique_ptr<Stepper>(std::string_view method, const Flow& flow,
+                                                              const StepperSettings& settings)>;
+
 struct TraceSettings {
   std::string method = "dopri54";
+  StepperFactory stepper_factory;  ///< empty: make_stepper; the suite plants wrong steppers here
   double tol = 1e-10;        ///< adaptive methods: see ErrorScale
   double step = 0.01;        ///< fixed-step methods: in lambda for |p_t| = 1
   double length_unit = 1.0;  ///< M where there is a mass, else b0 or the scene's

@@ -27,8 +27,7 @@ struct Fault {
                                            std::span<const NamedValue> values)>
       spacetime;
   /// Replaces a stepper; returns null where this fault leaves the method alone.
-  std::function<std::unique_ptr<Stepper>(std::string_view method, const Flow& flow, const StepperSettings& settings)>
-      stepper;
+  StepperFactory stepper;
   /// Changes a traced ray's end (a wrong projection, a wrong event) where set.
   std::function<void(TraceSettings& settings)> settings;
 };
