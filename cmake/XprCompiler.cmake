@@ -2,6 +2,8 @@
 
 add_library(xpr_warnings INTERFACE)
 target_compile_options(xpr_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+# Masks of one lane are bool, and templates over the scalar combine them with & and | as they do masks of many lanes.
+target_compile_options(xpr_warnings INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
 if(XPRIMERAY_WERROR)
   target_compile_options(xpr_warnings INTERFACE -Werror)
 endif()
