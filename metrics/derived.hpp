@@ -36,7 +36,7 @@ concept HandWrittenFlow = requires(const M& metric, const PhaseState<double>& y)
 template <MetricModule M, class T>
 [[nodiscard]] constexpr T hamiltonian(const M& metric, const PhaseState<T>& y) {
   const Vec4<T> p = y.p();
-  return 0.5 * contract(p, apply(metric.inverse_metric(y.x()), p));
+  return 0.5 * contract(p, raise_index(metric.inverse_metric(y.x()), p));
 }
 
 /// How many coordinates the metric of M depends on.
@@ -54,7 +54,7 @@ template <MetricModule M, class T>
   PhaseState<T> rate;
   const Vec4<T> p = y.p();
   if constexpr (n == 0) {
-    const Vec4<T> v = apply(metric.inverse_metric(y.x()), p);
+    const Vec4<T> v = raise_index(metric.inverse_metric(y.x()), p);
     for (std::size_t mu = 0; mu < 4; ++mu) rate[mu] = v[mu];
   } else {
     using D = Dual<T, n>;
@@ -189,7 +189,7 @@ template <MetricModule M>
 template <MetricModule M>
 [[nodiscard]] double null_residual(const M& metric, const PhaseState<double>& y) {
   const SymTensor4<double> g = metric.inverse_metric(y.x());
-  const Vec4<double> v = apply(g, y.p());
+  const Vec4<double> v = raise_index(g, y.p());
   const double residual = contract(y.p(), v) * -g(0, 0) / (v[0] * v[0]);
   return residual < 0.0 ? -residual : residual;
 }

@@ -67,6 +67,8 @@ class Spacetime {
   [[nodiscard]] virtual std::optional<double> default_r_min() const = 0;
   /// Signed proper distance l from a throat, if there is one; `sheet` is +1 on the near side.
   [[nodiscard]] virtual std::optional<double> proper_distance(const Vec4<double>& x, int sheet) const = 0;
+  /// Radius at which derivatives of the metric jump (the rim of a lens), if there is one: a step has to end there.
+  [[nodiscard]] virtual std::optional<double> interface_radius() const = 0;
   /// Whether physics and chart admit the event.
   [[nodiscard]] virtual bool inside_domain(const Vec4<double>& x) const = 0;
 
@@ -79,7 +81,8 @@ class Spacetime {
   /// Undoes to_hub; the second member is the sheet on which the state lies.
   [[nodiscard]] virtual std::pair<PhaseState<double>, int> from_hub(const PhaseState<double>& y) const = 0;
 
-  /// Where to go on if `y` is better described in another chart of the atlas; nothing to do otherwise.
+  /// Where to go on if `y` is better described in another chart of the atlas; nothing to do otherwise. The chart lives
+  /// as long as this one.
   [[nodiscard]] virtual std::optional<ChartSwitch> atlas_switch(const PhaseState<double>& y, int sheet) const = 0;
 };
 

@@ -1,31 +1,31 @@
 // SpacetimeOf<M>: the run-time interface made from a metric module. A module must model MetricModule; it may add
 //
-//   static constexpr std::array<Parameter<Geometry>, n> parameters     its numbers, by name
-//   void validate() const                                              throws std::invalid_argument: value, allowed
-//   range PhaseState<T> flow(const PhaseState<T>&) const                     a hand-written flow
-//   std::array<KillingVectorOf<T>, n> killing_vectors(const Vec4<T>&)  beyond the ignorable coordinates' own
+//   static constexpr std::array<Parameter<Geometry>, n> parameters   its numbers, by name
+//   void validate() const                                            throws std::invalid_argument: value, allowed range
+//   PhaseState<T> flow(const PhaseState<T>&) const                   a hand-written flow
+//   std::array<KillingVectorOf<T>, n> killing_vectors(const Vec4<T>&) const
+//                                                                    beyond the ignorable coordinates' own
 //   T carter_constant(const PhaseState<T>&) const
 //   double horizon_radius() const, double default_r_min() const
 //   double proper_distance(const Vec4<double>&, int sheet) const
+//   double interface_radius() const                                  where derivatives of the metric jump
 //   bool inside_domain(const Vec4<double>&) const
-//   Vec4<T> to_hub(const Vec4<T>&, int sheet) const, Vec4<T> from_hub(const Vec4<T>&) const, int hub_sheet(const
-//   Vec4<double>&) const std::optional<ChartSwitch> atlas_switch(const PhaseState<double>&, int sheet, const Spacetime&
-//   self) const
+//   to_hub, from_hub                                                 the map to the chart in which all charts meet:
+//     Vec4<T> to_hub(const Vec4<T>&, int sheet) const                as a point map, momenta by its Jacobian,
+//     PhaseState<T> to_hub(const PhaseState<T>&, int sheet) const    or on phase space, written out
+//   int hub_sheet(const Vec4<double>&) const                         the sheet on which a point of the hub lies
+//   std::optional<AtlasMove> atlas_switch(const PhaseState<double>&, int sheet) const
+//   Partner atlas_partner() const                                    the chart that atlas_switch goes to, if another
 #pragma once
 
+#include <memory>
 #include <utility>
 
+#include "metrics/atlas.hpp"
+#include "metrics/killing.hpp"
 #include "metrics/spacetime.hpp"
 
 namespace xpr {
-
-/// A Killing vector as a module gives it, over any scalar.
-template <class T>
-struct KillingVectorOf {
-  std::string_view name;
-  double sign = 1.0;
-  Vec4<T> component{};
-};
 
 /// The Killing vectors of M at x: those it lists, else one for each ignorable coordinate.
 template <MetricModule M, class T>
@@ -49,9 +49,15 @@ template <MetricModule M>
 class SpacetimeOf final : public Spacetime {
  public:
   /// Throws std::invalid_argument where the module's own validate() does.
-  explicit SpacetimeOf(M module) : module_(std::move(module)) {
-    if constexpr (requires { module_.validate(); }) module_.validate();
+  explicit SpacetimeOf(M module) : SpacetimeOf(std::move(module), nullptr) {
+    if constexpr (has_partner) {
+      using Partner = decltype(module_.atlas_partner());
+      owned_partner_.reset(new SpacetimeOf<Partner>(module_.atlas_partner(), this));
+      partner_ = owned_partner_.get();
+    }
   }
+  SpacetimeOf(const SpacetimeOf&) = delete;  // charts of an atlas point to each other
+  SpacetimeOf& operator=(const SpacetimeOf&) = delete;
 
   [[nodiscard]] const M& module() const { return module_; }
   [[nodiscard]] const Card& card() const override { return M::card; }
@@ -120,8 +126,15 @@ class SpacetimeOf final : public Spacetime {
     return std::nullopt;
   }
 
+  [[nodiscard]] std::optional<double> interface_radius() const override {
+    if constexpr (requires { module_.interface_radius(); }) return module_.interface_radius();
+    return std::nullopt;
+  }
+
   [[nodiscard]] PhaseState<double> to_hub(const PhaseState<double>& y, [[maybe_unused]] int sheet) const override {
-    if constexpr (requires { module_.to_hub(y.x(), sheet); }) {
+    if constexpr (requires { module_.to_hub(y, sheet); }) {
+      return module_.to_hub(y, sheet);
+    } else if constexpr (requires { module_.to_hub(y.x(), sheet); }) {
       return map_state([&](const auto& x) { return module_.to_hub(x, sheet); },
                        [&](const auto& x) { return module_.from_hub(x); }, y);
     } else {
@@ -129,25 +142,43 @@ class SpacetimeOf final : public Spacetime {
     }
   }
   [[nodiscard]] std::pair<PhaseState<double>, int> from_hub(const PhaseState<double>& y) const override {
-    if constexpr (requires { module_.to_hub(y.x(), 1); }) {
-      int sheet = 1;
-      if constexpr (requires { module_.hub_sheet(y.x()); }) sheet = module_.hub_sheet(y.x());
+    int sheet = 1;
+    if constexpr (requires { module_.hub_sheet(y.x()); }) sheet = module_.hub_sheet(y.x());
+    if constexpr (requires { module_.from_hub(y); }) {
+      return {module_.from_hub(y), sheet};
+    } else if constexpr (requires { module_.from_hub(y.x()); }) {
       return {map_state([&](const auto& x) { return module_.from_hub(x); },
                         [&](const auto& x) { return module_.to_hub(x, sheet); }, y),
               sheet};
     } else {
-      return {y, 1};
+      return {y, sheet};
     }
   }
 
   [[nodiscard]] std::optional<ChartSwitch> atlas_switch([[maybe_unused]] const PhaseState<double>& y,
                                                         [[maybe_unused]] int sheet) const override {
-    if constexpr (requires { module_.atlas_switch(y, sheet, *this); }) return module_.atlas_switch(y, sheet, *this);
+    if constexpr (requires { module_.atlas_switch(y, sheet); }) {
+      if (const std::optional<AtlasMove> move = module_.atlas_switch(y, sheet)) {
+        return ChartSwitch{has_partner ? partner_ : this, move->state, move->sheet};
+      }
+    }
     return std::nullopt;
   }
 
  private:
+  template <MetricModule>
+  friend class SpacetimeOf;
+
+  static constexpr bool has_partner = requires(const M& module) { module.atlas_partner(); };
+
+  /// A chart of an atlas: `partner`, which owns this one, is where it hands rays over to.
+  SpacetimeOf(M module, const Spacetime* partner) : module_(std::move(module)), partner_(partner) {
+    if constexpr (requires { module_.validate(); }) module_.validate();
+  }
+
   M module_;
+  const Spacetime* partner_ = nullptr;
+  std::unique_ptr<const Spacetime> owned_partner_;
 };
 
 }  // namespace xpr

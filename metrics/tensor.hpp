@@ -41,9 +41,9 @@ template <class T>
   return g;
 }
 
-/// g^{mu nu} v_nu: raises (or lowers) an index.
+/// g^{mu nu} v_nu: raises (or lowers) an index. Not `apply`, which std:: has for arrays.
 template <class T>
-[[nodiscard]] constexpr Vec4<T> apply(const SymTensor4<T>& g, const Vec4<T>& v) {
+[[nodiscard]] constexpr Vec4<T> raise_index(const SymTensor4<T>& g, const Vec4<T>& v) {
   Vec4<T> out{};
   for (std::size_t mu = 0; mu < 4; ++mu) {
     out[mu] = g(mu, 0) * v[0] + g(mu, 1) * v[1] + g(mu, 2) * v[2] + g(mu, 3) * v[3];

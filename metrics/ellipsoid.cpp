@@ -1,0 +1,40 @@
+#include "metrics/ellipsoid.hpp"
+
+#include "metrics/checks.hpp"
+#include "metrics/spacetime_of.hpp"
+
+namespace xpr {
+
+void Spheroid::validate() const {
+  require_positive("equatorial radius a_axis", a_axis);
+  if (!(f < 1.0 && std::isfinite(f))) throw std::invalid_argument(fmt::format("flattening f = {}, needs f < 1", f));
+}
+
+namespace {
+
+bool wants_other_chart(const PhaseState<double>& y) { return std::abs(sin(y[1])) > ellipsoid_switch_sine; }
+
+}  // namespace
+
+EllipsoidTurned EllipsoidGeographic::atlas_partner() const { return {static_cast<const Spheroid&>(*this)}; }
+
+EllipsoidGeographic EllipsoidTurned::atlas_partner() const { return {static_cast<const Spheroid&>(*this)}; }
+
+std::optional<AtlasMove> EllipsoidGeographic::atlas_switch(const PhaseState<double>& y, int sheet) const {
+  if (!wants_other_chart(y)) return std::nullopt;
+  const EllipsoidTurned turned = atlas_partner();
+  return AtlasMove{map_state([&](const auto& x) { return turned.from_hub(x); },
+                             [&](const auto& x) { return turned.to_hub(x, 1); }, y),
+                   sheet};
+}
+
+std::optional<AtlasMove> EllipsoidTurned::atlas_switch(const PhaseState<double>& y, int sheet) const {
+  if (!wants_other_chart(y)) return std::nullopt;
+  return AtlasMove{
+      map_state([&](const auto& x) { return to_hub(x, 1); }, [&](const auto& x) { return from_hub(x); }, y), sheet};
+}
+
+template class SpacetimeOf<EllipsoidGeographic>;
+template class SpacetimeOf<EllipsoidTurned>;
+
+}  // namespace xpr

@@ -1,0 +1,10 @@
+#include "metrics/minkowski.hpp"
+
+#include "metrics/spacetime_of.hpp"
+
+namespace xpr {
+
+template class SpacetimeOf<MinkowskiCartesian>;
+template class SpacetimeOf<MinkowskiSpherical>;
+
+}  // namespace xpr
