@@ -4,6 +4,7 @@
 // autonomous flow, estimates its own error where the method can, and interpolates over the step it made last.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string_view>
@@ -32,6 +33,7 @@ struct MethodCard {
   bool symplectic;         ///< the step map is symplectic (Tao's: in the doubled phase space)
   bool separable_only;     ///< needs H = T(p) + V(x)
   int dense_order;         ///< order of interpolate(); below order - 1 events are located by repeating the step shorter
+  int error_power = 0;     ///< the error estimate shrinks as h to this power; 0 for fixed-step methods
 };
 
 /// What came of one step.
@@ -39,6 +41,7 @@ struct StepOutcome {
   PhaseState<double> y;     ///< at lambda + h
   double error_norm = 0.0;  ///< estimate in units of the tolerance: acceptable up to 1; 0 for methods without one
   bool converged = true;    ///< false: an implicit method's iteration did not settle
+  double next_step = 0.0;   ///< the step the method itself proposes next; 0: the controller chooses
 };
 
 /// One method advancing one trajectory. Not shared between threads; cheap to make.
@@ -50,6 +53,12 @@ class Stepper {
   [[nodiscard]] virtual StepOutcome step(const PhaseState<double>& y, double h) = 0;
   /// The solution at fraction theta in [0, 1] of the last step made.
   [[nodiscard]] virtual PhaseState<double> interpolate(double theta) = 0;
+  /// As interpolate, but never dearer than the flow at both ends: to see whether something is near.
+  [[nodiscard]] virtual PhaseState<double> interpolate_coarse(double theta) = 0;
+  /// The flow at the beginning and at the end of the last step made; kept, so that a step from there has it for
+  /// nothing.
+  [[nodiscard]] virtual const PhaseState<double>& begin_rate() = 0;
+  [[nodiscard]] virtual const PhaseState<double>& end_rate() = 0;
   /// Flow evaluations so far.
   [[nodiscard]] virtual long evaluations() const = 0;
 };

@@ -40,16 +40,16 @@ struct EventHit {
 };
 
 /// Makes the stepper of a method, as make_stepper does.
-using StepperFactory = std::function<std::unique_ptr<Stepper>(std::string_view method, const Flow& flow,
-                                                              const StepperSettings& settings)>;
+using StepperFactory =
+    std::function<std::unique_ptr<Stepper>(std::string_view method, const Flow& flow, const StepperSettings& settings)>;
 
 struct TraceSettings {
   std::string method = "dopri54";
   StepperFactory stepper_factory;  ///< empty: make_stepper; the suite plants wrong steppers here
-  double tol = 1e-10;        ///< adaptive methods: see ErrorScale
-  double step = 0.01;        ///< fixed-step methods: in lambda for |p_t| = 1
-  double length_unit = 1.0;  ///< M where there is a mass, else b0 or the scene's
-  bool grade_time = false;   ///< the error norm includes t
+  double tol = 1e-10;              ///< adaptive methods: see ErrorScale
+  double step = 0.01;              ///< fixed-step methods: in lambda for |p_t| = 1
+  double length_unit = 1.0;        ///< M where there is a mass, else b0 or the scene's
+  bool grade_time = false;         ///< the error norm includes t
   Projection projection = Projection::none;
   double tao_omega = 1.0;
   std::optional<double> r_min;  ///< going inward -> captured
@@ -68,6 +68,11 @@ struct StepView {
   double h;
   const PhaseState<double>& begin;
   const PhaseState<double>& end;
+  Stepper& stepper;
+  double part;  ///< of the stepper's last step that was kept: less than 1 where a stop cut it
+
+  /// The path at fraction theta in [0, 1] of this step, before any projection.
+  [[nodiscard]] PhaseState<double> at(double theta) const { return stepper.interpolate(part * theta); }
 };
 
 struct RayEnd {
@@ -79,18 +84,26 @@ struct RayEnd {
   std::int64_t steps = 0;
   std::int64_t rejected = 0;
   std::int64_t evaluations = 0;
-  double null_residual = 0.0;
+  double null_residual = 0.0;  ///< at the end; NaN where g^{tt} >= 0, where it is not defined
   double null_residual_max = 0.0;
-  int windings =
-      0;  ///< Cartesian charts: signed crossings of the half-plane y = 0, x < 0 (positive: counter-clockwise)
+  /// Cartesian charts: signed crossings of the half-plane y = 0, x < 0, positive if counter-clockwise.
+  int windings = 0;
   std::vector<EventHit> hits;
 };
 
-/// Traces one ray until a stop is met. Non-finite numbers, domains and budgets become a status, never an exception;
-/// throws std::invalid_argument only for settings that make no sense (unknown method, tol or step not positive).
+/// Traces one ray until a stop is met: lambda grows from 0, whichever way p points. A ray that begins beyond r_max and
+/// goes outward has escaped at once; one that begins below r_min and goes inward is captured. Non-finite numbers,
+/// domains and budgets become a status, never an exception; throws std::invalid_argument only for settings that make no
+/// sense (unknown method, tol or step not positive, a method for separable Hamiltonians where the spacetime has none).
 [[nodiscard]] RayEnd trace_ray(const Spacetime& spacetime, const PhaseState<double>& start, int sheet,
                                const TraceSettings& settings, std::span<const Event> events = {},
                                const std::function<void(const StepView&)>& observer = {});
+
+/// What a component's change is measured in: the length unit for lengths, t and proper distances, 1 for angles, |p_t|
+/// for momenta, times the length unit where they are conjugate to an angle. Where p_t = 0 the largest |p_i| takes its
+/// place.
+[[nodiscard]] std::array<double, 8> component_units(const Spacetime& spacetime, const PhaseState<double>& y,
+                                                    double length_unit);
 
 /// The error norm of DESIGN section 4 for a chart: x^i against tol (length unit + |x^i|), angles against tol, momenta
 /// against tol |p_t| (times the length unit where they are conjugate to an angle), t not graded unless asked.

@@ -32,6 +32,13 @@ struct KillingVector {
   Vec4<double> component{};
 };
 
+/// The constant of motion of a Killing vector at a point of phase space, with its gradient over x0..x3, p0..p3.
+struct KillingConstant {
+  std::string_view name;
+  double value = 0.0;
+  std::array<double, 8> gradient{};
+};
+
 /// What an atlas answers when a ray has left its chart's good region: the chart to go on in and the state there.
 struct ChartSwitch {
   const Spacetime* chart = nullptr;
@@ -72,7 +79,12 @@ class Spacetime {
   /// Whether physics and chart admit the event.
   [[nodiscard]] virtual bool inside_domain(const Vec4<double>& x) const = 0;
 
+  /// Whether H = T(p_i) + V(x^i, p_t) with p_t constant: what Stoermer-Verlet needs.
+  [[nodiscard]] virtual bool separable() const = 0;
+
   [[nodiscard]] virtual std::vector<KillingVector> killing_vectors(const Vec4<double>& x) const = 0;
+  /// The constants sign * K^mu p_mu of the same vectors, in the same order.
+  [[nodiscard]] virtual std::vector<KillingConstant> killing_constants(const PhaseState<double>& y) const = 0;
   /// Carter's constant Q, where the module has a Killing tensor.
   [[nodiscard]] virtual std::optional<double> carter_constant(const PhaseState<double>& y) const = 0;
 

@@ -6,6 +6,7 @@
 //   std::array<KillingVectorOf<T>, n> killing_vectors(const Vec4<T>&) const
 //                                                                    beyond the ignorable coordinates' own
 //   T carter_constant(const PhaseState<T>&) const
+//   static constexpr bool separable                                    H = T(p_i) + V(x^i, p_t): Stoermer-Verlet works
 //   double horizon_radius() const, double default_r_min() const
 //   double proper_distance(const Vec4<double>&, int sheet) const
 //   double interface_radius() const                                  where derivatives of the metric jump
@@ -116,9 +117,30 @@ class SpacetimeOf final : public Spacetime {
     return true;
   }
 
+  [[nodiscard]] bool separable() const override {
+    if constexpr (requires { M::separable; }) return M::separable;
+    return false;
+  }
+
   [[nodiscard]] std::vector<KillingVector> killing_vectors(const Vec4<double>& x) const override {
     std::vector<KillingVector> out;
     for (const auto& k : killing_vectors_of(module_, x)) out.push_back({k.name, k.sign, k.component});
+    return out;
+  }
+  [[nodiscard]] std::vector<KillingConstant> killing_constants(const PhaseState<double>& y) const override {
+    const Vec4<double> p = y.p();
+    std::vector<KillingConstant> out;
+    for (const auto& k : killing_vectors_of(module_, variables(y.x()))) {
+      KillingConstant constant{k.name};
+      for (std::size_t mu = 0; mu < 4; ++mu) {
+        constant.value += k.sign * (k.component[mu].value * p[mu]);
+        constant.gradient[4 + mu] = k.sign * k.component[mu].value;
+        for (std::size_t nu = 0; nu < 4; ++nu) {
+          constant.gradient[nu] += k.sign * (k.component[mu].derivative[nu] * p[mu]);
+        }
+      }
+      out.push_back(constant);
+    }
     return out;
   }
   [[nodiscard]] std::optional<double> carter_constant([[maybe_unused]] const PhaseState<double>& y) const override {

@@ -1,0 +1,71 @@
+// DOP853, the explicit Runge-Kutta method of order 8 by Dormand and Prince in the form that Hairer gave it: an error
+// estimate that shrinks as h^8 and a dense output of order 7. Cites: [HairerNorsettWanner1993]
+#pragma once
+
+#include <utility>
+
+#include "integrators/dop853_coefficients.hpp"
+#include "integrators/flow_stepper.hpp"
+
+namespace xpr {
+namespace dop853 {
+
+template <class T>
+using Stages = std::array<PhaseState<T>, dense_stages>;
+
+/// sum_j row_j k_j over the non-zero entries of a row that is known at compile time.
+template <const Row& row, class T>
+[[nodiscard]] constexpr PhaseState<T> weighted_rate(const Stages<T>& k) {
+  PhaseState<T> sum{};
+  const auto add = [&]<std::size_t J>() {
+    if constexpr (row[J] != 0.0) {
+      for (std::size_t i = 0; i < 8; ++i) sum[i] = sum[i] + row[J] * k[J][i];
+    }
+  };
+  [&]<std::size_t... J>(std::index_sequence<J...>) { (add.template operator()<J>(), ...); }
+  (std::make_index_sequence<dense_stages>{});
+  return sum;
+}
+
+template <const Row& row, class T, class H>
+[[nodiscard]] constexpr PhaseState<T> advanced(const PhaseState<T>& y, const H& h, const Stages<T>& k) {
+  PhaseState<T> out = weighted_rate<row>(k);
+  for (std::size_t i = 0; i < 8; ++i) out[i] = y[i] + h * out[i];
+  return out;
+}
+
+/// The end of one step. On entry k[0] holds flow(y); on return k[0] to k[11] hold the stages.
+template <class T, class H, class FlowT>
+[[nodiscard]] constexpr PhaseState<T> step(FlowT&& flow, const PhaseState<T>& y, const H& h, Stages<T>& k) {
+  [&]<std::size_t... S>(std::index_sequence<S...>) { ((k[S + 1] = flow(advanced<a[S + 1]>(y, h, k))), ...); }
+  (std::make_index_sequence<stages - 1>{});
+  return advanced<a[stages]>(y, h, k);
+}
+
+/// The three further stages of the dense output. On entry k[0] to k[12] are known, k[12] being the flow at the end.
+template <class T, class H, class FlowT>
+constexpr void dense_stages_of(FlowT&& flow, const PhaseState<T>& y, const H& h, Stages<T>& k) {
+  k[13] = flow(advanced<a[13]>(y, h, k));
+  k[14] = flow(advanced<a[14]>(y, h, k));
+  k[15] = flow(advanced<a[15]>(y, h, k));
+}
+
+}  // namespace dop853
+
+/// DOP853 behind the stepper interface. The dense output costs three evaluations, made when it is first asked for.
+class Dop853Stepper final : public FlowStepper {
+ public:
+  Dop853Stepper(const MethodCard& card, Flow flow, const ErrorScale& scale)
+      : FlowStepper(card, std::move(flow)), scale_(scale) {}
+
+  [[nodiscard]] StepOutcome step(const PhaseState<double>& y, double h) override;
+  [[nodiscard]] PhaseState<double> interpolate(double theta) override;
+
+ private:
+  ErrorScale scale_;
+  dop853::Stages<double> k_{};
+  bool dense_ready_ = false;
+  std::array<PhaseState<double>, dop853::dense_rows> dense_{};
+};
+
+}  // namespace xpr

@@ -1,0 +1,70 @@
+// What every stepper shares: the flow with its count of evaluations, the rates kept at both ends of the last step, and
+// the cubic Hermite interpolant through them.
+#pragma once
+
+#include <utility>
+
+#include "integrators/stepper.hpp"
+
+namespace xpr {
+
+/// The cubic through both ends of a step with the rates there, at fraction theta: local error O(h^4).
+[[nodiscard]] PhaseState<double> hermite_cubic(const PhaseState<double>& y0, const PhaseState<double>& rate0,
+                                               const PhaseState<double>& y1, const PhaseState<double>& rate1, double h,
+                                               double theta);
+
+/// max_i |error_i| / (absolute_i + relative_i max(|y0_i|, |y1_i|)); NaN where any component is.
+[[nodiscard]] double error_norm(const ErrorScale& scale, const PhaseState<double>& y0, const PhaseState<double>& y1,
+                                const PhaseState<double>& error);
+
+/// Base of the steppers. A derived step() calls begin_step, then end_step.
+class FlowStepper : public Stepper {
+ public:
+  FlowStepper(const MethodCard& card, Flow flow) : card_(card), flow_(std::move(flow)) {}
+
+  [[nodiscard]] const MethodCard& card() const final { return card_; }
+  [[nodiscard]] long evaluations() const final { return evaluations_; }
+  [[nodiscard]] const PhaseState<double>& begin_rate() final;
+  [[nodiscard]] const PhaseState<double>& end_rate() final;
+  [[nodiscard]] PhaseState<double> interpolate_coarse(double theta) final { return hermite(theta); }
+  [[nodiscard]] PhaseState<double> interpolate(double theta) override { return hermite(theta); }
+
+ protected:
+  [[nodiscard]] PhaseState<double> rate(const PhaseState<double>& y) {
+    ++evaluations_;
+    return flow_(y);
+  }
+  /// The flow as a function object that counts, for the kernels.
+  [[nodiscard]] auto counted_flow() {
+    return [this](const PhaseState<double>& y) { return rate(y); };
+  }
+
+  /// Notes where the step begins; keeps the rate there if the last step ended or began at the same point.
+  void begin_step(const PhaseState<double>& y, double h);
+  void end_step(const PhaseState<double>& y) {
+    end_ = y;
+    end_rate_known_ = false;
+  }
+  void end_step(const PhaseState<double>& y, const PhaseState<double>& rate_there) {
+    end_ = y;
+    end_rate_ = rate_there;
+    end_rate_known_ = true;
+  }
+
+  [[nodiscard]] const PhaseState<double>& begin() const { return begin_; }
+  [[nodiscard]] const PhaseState<double>& end() const { return end_; }
+  [[nodiscard]] double step_size() const { return h_; }
+  [[nodiscard]] PhaseState<double> hermite(double theta);
+
+ private:
+  MethodCard card_;
+  Flow flow_;
+  long evaluations_ = 0;
+  double h_ = 0.0;
+  bool stepped_ = false;
+  bool begin_rate_known_ = false;
+  bool end_rate_known_ = false;
+  PhaseState<double> begin_, end_, begin_rate_, end_rate_;
+};
+
+}  // namespace xpr
