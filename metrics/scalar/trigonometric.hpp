@@ -74,8 +74,8 @@ template <MachineScalar T>
   return head + (((1.0 - head) - half_z) + (z * tail - r * r_low));
 }
 
-/// atan(numerator / denominator), both >= 0 and not both zero or both infinite, without the quotient's rounding error;
-/// pi minus it where `supplement` holds.
+/// atan(numerator / denominator), both >= 0, not both zero, the denominator finite, without the quotient's rounding
+/// error; pi minus it where `supplement` holds.
 template <MachineScalar T>
 [[nodiscard]] constexpr T atan_of_ratio(const T& numerator, const T& denominator, const MaskOf<T>& supplement) {
   // A common scale keeps sums and error terms below clear of overflow and underflow.
@@ -195,11 +195,12 @@ template <MachineScalar T>
 [[nodiscard]] constexpr T atan2(const T& y, const T& x) {
   const T a = abs(y);
   const T b = abs(x);
-  // 0/0 counts as 0, and inf/inf as 1.
-  const auto both_infinite = (a == T(bits::infinity)) & (b == T(bits::infinity));
+  // On the axes and at infinity the ratio is taken from IEEE 754's table: 0/0 is 0, y/inf is 0, inf/inf is 1.
   const T one = T(1.0);
-  const T angle = trigonometry::atan_of_ratio(select(both_infinite, one, a),
-                                              select((a == T(0.0)) | both_infinite, one, b), signbit(x));
+  const auto far = b == T(bits::infinity);
+  const T numerator = select(far, select(a == T(bits::infinity), one, T(0.0)), a);
+  const T denominator = select((a == T(0.0)) | far, one, b);
+  const T angle = trigonometry::atan_of_ratio(numerator, denominator, signbit(x));
   return select((x == x) & (y == y), copysign(angle, y), T(bits::nan));
 }
 
