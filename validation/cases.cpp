@@ -1,0 +1,32 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <vector>
+
+#include "validation/case.hpp"
+#include "validation/families.hpp"
+
+namespace xpr {
+
+namespace {
+
+/// In report order.
+constexpr std::array families = {
+    conformance_cases,
+};
+
+}  // namespace
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = [] {
+    std::vector<Case> list;
+    for (const auto& family : families) {
+      std::vector<Case> members = family();
+      std::move(members.begin(), members.end(), std::back_inserter(list));
+    }
+    return list;
+  }();
+  return all;
+}
+
+}  // namespace xpr

@@ -1,0 +1,14 @@
+// The families of cases and of planted faults: one function each, put together in cases.cpp and faults.cpp.
+#pragma once
+
+#include <vector>
+
+#include "validation/case.hpp"
+
+namespace xpr {
+
+[[nodiscard]] std::vector<Case> conformance_cases();  ///< what must hold of every metric module, whatever it describes
+
+[[nodiscard]] std::vector<Fault> metric_faults();  ///< wrong-on-purpose spacetimes
+
+}  // namespace xpr

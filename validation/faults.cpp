@@ -1,0 +1,31 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <vector>
+
+#include "validation/case.hpp"
+#include "validation/families.hpp"
+
+namespace xpr {
+
+namespace {
+
+constexpr std::array families = {
+    metric_faults,
+};
+
+}  // namespace
+
+const std::vector<Fault>& faults() {
+  static const std::vector<Fault> all = [] {
+    std::vector<Fault> list;
+    for (const auto& family : families) {
+      std::vector<Fault> members = family();
+      std::move(members.begin(), members.end(), std::back_inserter(list));
+    }
+    return list;
+  }();
+  return all;
+}
+
+}  // namespace xpr
