@@ -17,7 +17,7 @@ namespace xpr {
 /// One row of a ray table as it comes in.
 struct Ray {
   std::int64_t id = 0;
-  PhaseState<double> start;
+  PhaseState<double> start{};
   int sheet = 1;
 };
 
@@ -26,7 +26,7 @@ struct TracedRay {
   std::int64_t id = 0;
   Status status = Status::outside_domain;
   int sheet = 1;
-  PhaseState<double> end;
+  PhaseState<double> end{};
   double lambda = 0.0;
   std::int64_t steps = 0;
   std::int64_t rejected = 0;
@@ -55,7 +55,11 @@ class Transport {
 
   /// |g^{mu nu} p_mu p_nu| / (n.p)^2 of a start, in the table's chart.
   [[nodiscard]] double off_cone(const Ray& ray) const;
-  /// The same ray put onto the light cone by solving for p_0, keeping the sign of p^t.
+  /// Whether physics and the charts admit a start: inside its domain, finite, with a direction in time, on a sheet that
+  /// there is.
+  [[nodiscard]] bool admits(const Ray& ray) const;
+  /// The same ray put onto the light cone by solving for p_0, keeping the sign of p^t. Unchanged where no real root
+  /// exists.
   [[nodiscard]] Ray renormalised(const Ray& ray) const;
   /// Traces one ray to its stop. A start that physics does not admit comes back as `outside_domain`.
   [[nodiscard]] TracedRay trace(const Ray& ray) const;

@@ -1,4 +1,4 @@
-// The two ways in which reading and writing go wrong, as the command's exit codes tell them apart.
+// The ways in which work ends early, as the command's exit codes tell them apart.
 #pragma once
 
 #include <filesystem>
@@ -14,6 +14,11 @@ struct InputError : std::runtime_error {
 
 /// The machine failed while running: a full disk, a device error. One line; exit code 3.
 struct FaultError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The user asked to stop (Ctrl-C). Exit code 130.
+struct Interrupted : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

@@ -441,14 +441,14 @@ std::vector<std::string> Hdf5File::read_strings(const std::string& path) const {
   return out;
 }
 
-std::vector<std::string> Hdf5File::read_enum(const std::string& path) const {
-  const std::size_t count = size(path);
+std::vector<std::string> Hdf5File::read_enum(const std::string& path, std::size_t start, std::size_t count) const {
+  static_cast<void>(size(path));
   const Handle dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose);
   const Handle type(H5Dget_type(dataset.id()), H5Tclose);
   if (!is_type(type.id(), H5T_ENUM, 1)) fail("dataset " + path + " is " + type_words(type.id()) + ", needs an enum");
   const Handle native(H5Tget_native_type(type.id(), H5T_DIR_DEFAULT), H5Tclose);
   std::vector<signed char> codes(count);
-  read_raw(path, native.id(), 0, count, codes.data());
+  read_raw(path, native.id(), start, count, codes.data());
   std::vector<std::string> out;
   out.reserve(count);
   for (const signed char code : codes) {
@@ -460,6 +460,8 @@ std::vector<std::string> Hdf5File::read_enum(const std::string& path) const {
   }
   return out;
 }
+
+std::vector<std::string> Hdf5File::read_enum(const std::string& path) const { return read_enum(path, 0, size(path)); }
 
 bool Hdf5File::has_attribute(const std::string& path, const std::string& name) const {
   return exists(path) && H5Aexists_by_name(file_, path.c_str(), name.c_str(), H5P_DEFAULT) > 0;
@@ -498,6 +500,12 @@ double Hdf5File::number_attribute(const std::string& path, const std::string& na
     fail("attribute " + name + " of " + path + " is not one number");
   }
   return out;
+}
+
+std::string hdf5_version() {
+  unsigned major = 0, minor = 0, release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(release);
 }
 
 }  // namespace xpr

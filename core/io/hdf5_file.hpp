@@ -85,6 +85,7 @@ class Hdf5File {
   [[nodiscard]] std::vector<std::int64_t> read_integers(const std::string& path) const;
   [[nodiscard]] std::vector<std::string> read_strings(const std::string& path) const;
   /// The names that the values stand for.
+  [[nodiscard]] std::vector<std::string> read_enum(const std::string& path, std::size_t start, std::size_t count) const;
   [[nodiscard]] std::vector<std::string> read_enum(const std::string& path) const;
 
   [[nodiscard]] bool has_attribute(const std::string& path, const std::string& name) const;
@@ -109,5 +110,8 @@ class Hdf5File {
   Id file_ = -1;
   bool writing_ = false;
 };
+
+/// Version of the HDF5 library in use, such as "1.10.8".
+[[nodiscard]] std::string hdf5_version();
 
 }  // namespace xpr

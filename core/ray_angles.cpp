@@ -1,0 +1,90 @@
+#include "core/ray_angles.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "metrics/scalar/elementary.hpp"
+
+namespace xpr {
+namespace {
+
+constexpr double half_turn = std::numbers::pi;
+constexpr double turn = 2.0 * half_turn;
+
+std::optional<std::size_t> index_of(const Card& card, CoordinateKind kind) {
+  for (std::size_t mu = 0; mu < 4; ++mu) {
+    if (card.coordinates[mu].kind == kind) return mu;
+  }
+  return std::nullopt;
+}
+
+// theta outside [0, pi] means that the axis was crossed, once for each multiple of pi.
+void fold_polar_angle(PhaseState<double>& y, std::size_t polar, std::size_t azimuth) {
+  const double crossings = std::floor(y[polar] / half_turn);
+  if (crossings == 0.0 || !std::isfinite(crossings) || y[polar] == half_turn) return;
+  const bool odd = std::fmod(crossings, 2.0) != 0.0;
+  y[polar] = odd ? (crossings + 1.0) * half_turn - y[polar] : y[polar] - crossings * half_turn;
+  if (odd) y[4 + polar] = -y[4 + polar];
+  y[azimuth] += std::abs(crossings) * half_turn;
+}
+
+}  // namespace
+
+RayAngles::RayAngles(const Spacetime& table, const Spacetime& transport, const PhaseState<double>& table_start,
+                     const ChartState& start)
+    : table_(table),
+      transport_(transport),
+      table_start_(table_start),
+      start_(start),
+      azimuth_(index_of(table.card(), CoordinateKind::azimuth)),
+      polar_angle_(index_of(table.card(), CoordinateKind::polar_angle)),
+      cartesian_(!index_of(transport.card(), CoordinateKind::azimuth)),
+      latitudes_(index_of(transport.card(), CoordinateKind::latitude).has_value()) {
+  if (azimuth_) longitude_ = table_start[*azimuth_];
+}
+
+std::function<void(const StepView&)> RayAngles::observer() {
+  if (!latitudes_ || !azimuth_) return {};
+  // No step turns a ray once around, and a surface of revolution keeps the sense of rotation: that of p_lon.
+  return [this](const StepView& step) {
+    const PhaseState<double> y = change_chart(step.chart, table_, step.end, step.sheet).state;
+    const double sense = table_start_[4 + *azimuth_] < 0.0 ? -1.0 : 1.0;
+    const double turns = sense * (y[*azimuth_] - longitude_) / turn;
+    // Round-off may move a meridian's longitude against the sense: not by a hundredth of a turn.
+    longitude_ = y[*azimuth_] - sense * turn * std::floor(turns + 0.01);
+  };
+}
+
+// The table's azimuth less the polar angle of (x, y), of a Cartesian transport chart: taken where the latter is zero,
+// so that no branch of an arctangent is near.
+double RayAngles::offset(const PhaseState<double>& y, int sheet) const {
+  const double in_plane = std::sqrt(y[1] * y[1] + y[2] * y[2]);
+  const PhaseState<double> turned({y[0], in_plane, 0.0, y[3]}, {-1.0, 0.0, 0.0, 0.0});
+  if (transport_.card().chart != "kerr-schild-outgoing") {
+    return change_chart(transport_, table_, turned, sheet).state[*azimuth_];
+  }
+  // The map to the ingoing hub turns by an angle known modulo 2 pi only; but the outgoing chart is the ingoing one
+  // under t -> -t, phi -> -phi, so its offset is the ingoing one's with the other sign.
+  return -table_.from_hub(turned).first[*azimuth_];
+}
+
+double RayAngles::swept_azimuth(const RayEnd& end) const {
+  if (latitudes_) return longitude_ - table_start_[*azimuth_];
+  const double begin = xpr::atan2(start_.state[2], start_.state[1]);
+  const double finish = xpr::atan2(end.y[2], end.y[1]) + turn * end.windings;
+  return finish - begin + (offset(end.y, end.sheet) - offset(start_.state, start_.sheet));
+}
+
+PhaseState<double> RayAngles::continued(const RayEnd& end, PhaseState<double> y) const {
+  if (!azimuth_) return y;
+  if (cartesian_ || latitudes_) {
+    // The map's own azimuth, moved by whole turns: prediction errors do not enter.
+    const double expected = table_start_[*azimuth_] + swept_azimuth(end);
+    const double turns = std::nearbyint((expected - y[*azimuth_]) / turn);
+    if (turns != 0.0 && std::isfinite(turns)) y[*azimuth_] += turn * turns;
+  }
+  if (polar_angle_) fold_polar_angle(y, *polar_angle_, *azimuth_);
+  return y;
+}
+
+}  // namespace xpr
