@@ -267,12 +267,6 @@ Bounded along(const Ray& ray, const Path& path, bool must_be_finite, const Integ
 
 }  // namespace
 
-ExactValue rounded(const Bounded& x) {
-  const auto value = static_cast<double>(x.value);
-  // 2^-53 of the value for the rounding; 2^-52 also covers that the sum itself is rounded.
-  return {value, static_cast<double>(x.error) + std::abs(value) * std::numeric_limits<double>::epsilon()};
-}
-
 Ray::Ray(double mass_in, double spin_in, double impact_parameter) : mass(mass_in) {
   if (!(mass_in > 0) || !std::isfinite(mass_in)) {
     throw std::invalid_argument(fmt::format("mass M = {}, needs a finite M > 0", mass_in));

@@ -8,22 +8,9 @@
 // near the photon orbit, and each result is rounded once. Cites: [Chandrasekhar1983] [IyerHansen2009]
 #pragma once
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
-
-#include "metrics/exact_value.hpp"
+#include "metrics/bounded.hpp"
 
 namespace xpr::equatorial_light {
-
-using Quad = boost::multiprecision::cpp_bin_float_quad;
-
-/// A value with an absolute error bound, before the last rounding.
-struct Bounded {
-  Quad value = 0;
-  Quad error = 0;
-};
-
-/// Rounds once; the bound grows by that rounding.
-[[nodiscard]] ExactValue rounded(const Bounded& x);
 
 /// P(u) of one ray. Where it `turns`, u1 < 0 < u2 < u3 and `gap` = u3 - u2; else u1 is the one real root and rho +- i
 /// sigma the pair. d = 0 (b = a, the principal null ray) has P = 1 and no roots: `straight`.

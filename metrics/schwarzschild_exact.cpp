@@ -15,7 +15,6 @@ namespace xpr::schwarzschild_exact {
 namespace {
 
 using equatorial_light::Path;
-using equatorial_light::Quad;
 using equatorial_light::Ray;
 using std::numbers::pi;
 using std::numbers::sqrt3;
@@ -89,7 +88,7 @@ ExactValue lyapunov_exponent_per_half_orbit() { return with_roundings(pi, 1); }
 
 ExactValue periapsis(double mass, double impact_parameter) {
   const Ray ray = scattered_ray(mass, impact_parameter);
-  return equatorial_light::rounded({ray.periapsis() * ray.mass, 0});
+  return rounded(ray.periapsis() * ray.mass);
 }
 
 ExactValue deflection(double mass, double impact_parameter) {
@@ -108,12 +107,12 @@ ExactValue deflection_from_periapsis(double mass, double periapsis) {
 }
 
 ExactValue swept_angle(double mass, double impact_parameter, double r1, double r2, bool via_periapsis) {
-  return equatorial_light::rounded(
+  return rounded(
       equatorial_light::swept_angle(ray_of(mass, impact_parameter), Path{r1, r2, via_periapsis}));
 }
 
 ExactValue coordinate_time(double mass, double impact_parameter, double r1, double r2, bool via_periapsis) {
-  return equatorial_light::rounded(
+  return rounded(
       equatorial_light::coordinate_time(ray_of(mass, impact_parameter), Path{r1, r2, via_periapsis}));
 }
 
