@@ -6,7 +6,11 @@
 
 #include "integrators/dop853.hpp"
 #include "integrators/explicit_rk.hpp"
+#include "integrators/gauss_legendre.hpp"
+#include "integrators/odeint.hpp"
 #include "integrators/stepper.hpp"
+#include "integrators/tao.hpp"
+#include "integrators/verlet.hpp"
 #include "metrics/catalogue.hpp"
 
 namespace xpr {
@@ -26,6 +30,20 @@ std::unique_ptr<Stepper> make_explicit(const MethodCard& card, Flow flow, const 
 
 std::unique_ptr<Stepper> make_dop853(const MethodCard& card, Flow flow, const StepperSettings& settings) {
   return std::make_unique<Dop853Stepper>(card, std::move(flow), settings.error_scale);
+}
+
+std::unique_ptr<Stepper> make_verlet(const MethodCard& card, Flow flow, const StepperSettings&) {
+  return std::make_unique<VerletStepper>(card, std::move(flow));
+}
+
+template <const auto& coefficients>
+std::unique_ptr<Stepper> make_gauss(const MethodCard& card, Flow flow, const StepperSettings& settings) {
+  return std::make_unique<GaussStepper<coefficients.b.size()>>(card, coefficients, std::move(flow),
+                                                               settings.max_implicit_iterations);
+}
+
+std::unique_ptr<Stepper> make_tao(const MethodCard& card, Flow flow, const StepperSettings& settings) {
+  return std::make_unique<TaoStepper>(card, std::move(flow), settings.tao_omega);
 }
 
 constexpr std::array all_methods{
@@ -88,6 +106,81 @@ constexpr std::array all_methods{
             .dense_order = 7,
             .error_power = 8},
            make_dop853},
+    Method{{.id = "verlet",
+            .title = "Stoermer-Verlet for separable Hamiltonians [HairerLubichWanner2006]",
+            .order = 2,
+            .adaptive = false,
+            .symplectic = true,
+            .separable_only = true,
+            .dense_order = 2},
+           make_verlet},
+    Method{{.id = "implicit-midpoint",
+            .title = "implicit midpoint rule [HairerLubichWanner2006]",
+            .order = 2,
+            .adaptive = false,
+            .symplectic = true,
+            .separable_only = false,
+            .dense_order = 2},
+           make_gauss<gauss::one_stage>},
+    Method{{.id = "gl4",
+            .title = "Gauss-Legendre of order 4 [HairerLubichWanner2006]",
+            .order = 4,
+            .adaptive = false,
+            .symplectic = true,
+            .separable_only = false,
+            .dense_order = 3},
+           make_gauss<gauss::two_stages>},
+    Method{{.id = "gl6",
+            .title = "Gauss-Legendre of order 6 [HairerLubichWanner2006]",
+            .order = 6,
+            .adaptive = false,
+            .symplectic = true,
+            .separable_only = false,
+            .dense_order = 3},
+           make_gauss<gauss::three_stages>},
+    Method{{.id = "tao2",
+            .title = "explicit extended phase space, order 2 [Tao2016]",
+            .order = 2,
+            .adaptive = false,
+            .symplectic = true,
+            .separable_only = false,
+            .dense_order = 2},
+           make_tao},
+    Method{{.id = "tao4",
+            .title = "explicit extended phase space, order 4 [Tao2016]",
+            .order = 4,
+            .adaptive = false,
+            .symplectic = true,
+            .separable_only = false,
+            .dense_order = 3},
+           make_tao},
+    Method{{.id = "odeint:dopri5",
+            .title = "Boost.Odeint's Dormand-Prince 5(4)",
+            .order = 5,
+            .adaptive = true,
+            .symplectic = false,
+            .separable_only = false,
+            .dense_order = 3,
+            .error_power = 5},
+           make_odeint_dopri5},
+    Method{{.id = "odeint:rkf78",
+            .title = "Boost.Odeint's Runge-Kutta-Fehlberg 7(8), the eighth order propagated",
+            .order = 8,
+            .adaptive = true,
+            .symplectic = false,
+            .separable_only = false,
+            .dense_order = 3,
+            .error_power = 8},
+           make_odeint_rkf78},
+    Method{{.id = "odeint:bulirsch-stoer",
+            .title = "Boost.Odeint's Bulirsch-Stoer extrapolation, order chosen by itself",
+            .order = 8,
+            .adaptive = true,
+            .symplectic = false,
+            .separable_only = false,
+            .dense_order = 3,
+            .error_power = 8},
+           make_odeint_bulirsch_stoer},
 };
 
 const Method& find_method(std::string_view id) {
