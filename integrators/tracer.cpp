@@ -58,6 +58,9 @@ std::vector<Surface> surfaces_of(const Spacetime& spacetime, const TraceSettings
   stop(SurfaceKind::radius, settings.r_max, +1, Status::escaped);
   stop(SurfaceKind::proper_distance, settings.l_min, -1, Status::crossed);
   stop(SurfaceKind::proper_distance, settings.l_max, +1, Status::crossed);
+  if (const std::optional<double> rim = spacetime.interface_radius()) {
+    out.push_back({.kind = SurfaceKind::radius, .level = *rim, .cuts = true});
+  }
   const auto& coordinates = spacetime.card().coordinates;
   if (coordinates[1].name == "x" && coordinates[2].name == "y") out.push_back({.kind = SurfaceKind::half_plane});
   for (std::size_t i = 0; i < events.size(); ++i) {
@@ -115,6 +118,7 @@ class RayTrace {
   [[nodiscard]] std::optional<Status> try_step();
   [[nodiscard]] std::optional<Status> accept(const StepOutcome& outcome, double h);
   [[nodiscard]] std::optional<Status> finish_step(const PhaseState<double>& begin, double h, double part);
+  [[nodiscard]] double radial_change();
   [[nodiscard]] std::optional<Status> beyond_radius();
   void retreat_into_domain(const PhaseState<double>& begin, double lambda_begin, double h, double part);
   void record_hits(std::span<const Crossing> crossings, double h);
@@ -134,6 +138,7 @@ class RayTrace {
   double h_ = 0.0;
   double h_first_ = 0.0;
   bool last_rejected_ = false;
+  bool inside_interface_ = false;
   RayEnd out_;
 };
 
@@ -141,7 +146,12 @@ void RayTrace::begin_chart() {
   StepperSettings settings;
   settings.error_scale = error_scale(*chart_, y_, settings_);
   settings.tao_omega = settings_.tao_omega;
-  const Flow flow = [chart = chart_](const PhaseState<double>& y) { return chart->flow(y); };
+  Flow flow = [chart = chart_](const PhaseState<double>& y) { return chart->flow(y); };
+  if (chart_->interface_radius()) {
+    flow = [chart = chart_, inside = inside_interface_](const PhaseState<double>& y) {
+      return chart->flow_of_side(y, inside);
+    };
+  }
   if (stepper_) out_.evaluations += stepper_->evaluations();
   stepper_.reset();
   if (settings_.stepper_factory) stepper_ = settings_.stepper_factory(settings_.method, flow, settings);
@@ -166,6 +176,10 @@ RayEnd RayTrace::run() {
   if (!projector_.restore(*chart_, y_)) return ended(Status::constraint_violated);
   note_residual();
   if (!all_finite(counted_flow(y_))) return ended(Status::not_finite);
+  if (const std::optional<double> rim = chart_->interface_radius()) {
+    const double radius = chart_->radius(y_.x());
+    inside_interface_ = radius < *rim || (radius == *rim && radial_change() < 0.0);
+  }
   begin_chart();
   first_step();
   watch_.begin(*chart_, y_, sheet_);
@@ -227,8 +241,13 @@ std::optional<Status> RayTrace::accept(const StepOutcome& outcome, double h) {
     note_residual();
     return Status::outside_domain;
   }
+  const bool rises = cut && crossings.back().direction > 0;
   const std::optional<Status> trouble = finish_step(begin, fraction * h, part);
   if (cut && last->terminal) return last->status;
+  if (cut) {
+    inside_interface_ = !rises;
+    begin_chart();
+  }
   return trouble;
 }
 
@@ -252,6 +271,17 @@ std::optional<Status> RayTrace::finish_step(const PhaseState<double>& begin, dou
   return std::nullopt;
 }
 
+/// How the radius changes along the ray, over a move so short that the ray is straight.
+double RayTrace::radial_change() {
+  const PhaseState<double> rate = counted_flow(y_);
+  double fastest = 0.0;
+  for (std::size_t i = 1; i < 4; ++i) fastest = abs(rate[i]) > fastest ? abs(rate[i]) : fastest;
+  const double ahead = 1e-6 * settings_.length_unit / fastest;
+  Vec4<double> x = y_.x();
+  for (std::size_t i = 1; i < 4; ++i) x[i] += ahead * rate[i];
+  return chart_->radius(x) - chart_->radius(y_.x());
+}
+
 /// A ray beyond a radius that it never crossed: one that began there. It is done once it goes away from it.
 std::optional<Status> RayTrace::beyond_radius() {
   if (!settings_.r_max && !settings_.r_min) return std::nullopt;
@@ -259,14 +289,7 @@ std::optional<Status> RayTrace::beyond_radius() {
   const bool outside = settings_.r_max && radius >= *settings_.r_max;
   const bool inside = settings_.r_min && radius <= *settings_.r_min;
   if (!outside && !inside) return std::nullopt;
-  // The way the radius goes, from a move so short that the ray is straight over it.
-  const PhaseState<double> rate = counted_flow(y_);
-  double fastest = 0.0;
-  for (std::size_t i = 1; i < 4; ++i) fastest = abs(rate[i]) > fastest ? abs(rate[i]) : fastest;
-  const double ahead = 1e-6 * settings_.length_unit / fastest;
-  Vec4<double> x = y_.x();
-  for (std::size_t i = 1; i < 4; ++i) x[i] += ahead * rate[i];
-  const double change = chart_->radius(x) - radius;
+  const double change = radial_change();
   if (outside && change > 0.0) return Status::escaped;
   if (inside && change < 0.0) return Status::captured;
   return std::nullopt;

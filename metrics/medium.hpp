@@ -66,9 +66,16 @@ struct LuneburgIndex {
   void validate() const;
   template <class T>
   [[nodiscard]] constexpr IndexSquared<T> index_squared(const T& distance_sq) const {
-    const T inv = 1.0 / square(T(R));
     const auto inside = distance_sq < square(T(R));
-    return {select(inside, 2.0 - distance_sq * inv, T(1.0)), select(inside, -inv, T(0.0))};
+    const IndexSquared<T> lens = index_squared_of_side(distance_sq, true);
+    return {select(inside, lens.value, T(1.0)), select(inside, lens.slope, T(0.0))};
+  }
+  /// Each side's own formula, past the rim too.
+  template <class T>
+  [[nodiscard]] constexpr IndexSquared<T> index_squared_of_side(const T& distance_sq, bool inside) const {
+    if (!inside) return {T(1.0), T(0.0)};
+    const T inv = 1.0 / square(T(R));
+    return {2.0 - distance_sq * inv, -inv};
   }
   [[nodiscard]] double interface_radius() const { return R; }
 };
@@ -102,6 +109,8 @@ struct FisheyeIndex {
 /// The spacetime of an index profile: the same physics for every n(|x|).
 template <class Index>
 struct Medium : Index {
+  static constexpr bool separable = true;
+
   template <Scalar T>
   [[nodiscard]] constexpr SymTensor4<T> inverse_metric(const Vec4<T>& x) const {
     const T n_sq = this->index_squared(distance_squared(x)).value;
@@ -110,10 +119,15 @@ struct Medium : Index {
   /// Hamilton's equations by hand: the slope of n^2 is the profile's own.
   template <Scalar T>
   [[nodiscard]] constexpr PhaseState<T> flow(const PhaseState<T>& y) const {
-    const IndexSquared<T> n_sq = this->index_squared(distance_squared(y.x()));
-    const T pull = square(y[4]) * n_sq.slope;
-    return {{-n_sq.value * y[4], y[5], y[6], y[7]}, {T(0.0), pull * y[1], pull * y[2], pull * y[3]}};
+    return flow_with(this->index_squared(distance_squared(y.x())), y);
   }
+  /// The flow of one side of the interface, continued smoothly past it.
+  template <Scalar T>
+  [[nodiscard]] constexpr PhaseState<T> flow_of_side(const PhaseState<T>& y, bool inside) const requires
+      requires(const Index& index) {
+    index.interface_radius();
+  }
+  { return flow_with(this->index_squared_of_side(distance_squared(y.x()), inside), y); }
   template <Scalar T>
   [[nodiscard]] constexpr T radius(const Vec4<T>& x) const {
     return euclidean_radius(x);
@@ -129,6 +143,11 @@ struct Medium : Index {
   [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x); }
 
  private:
+  template <class T>
+  [[nodiscard]] static constexpr PhaseState<T> flow_with(const IndexSquared<T>& n_sq, const PhaseState<T>& y) {
+    const T pull = square(y[4]) * n_sq.slope;
+    return {{-n_sq.value * y[4], y[5], y[6], y[7]}, {T(0.0), pull * y[1], pull * y[2], pull * y[3]}};
+  }
   template <class T>
   [[nodiscard]] static constexpr T distance_squared(const Vec4<T>& x) {
     return square(x[1]) + square(x[2]) + square(x[3]);

@@ -19,6 +19,7 @@ struct MinkowskiCartesian {
                              .vacuum = true,
                              .asymptotically_flat = true,
                              .cites = "MisnerThorneWheeler1973"};
+  static constexpr bool separable = true;
 
   template <Scalar T>
   [[nodiscard]] constexpr SymTensor4<T> inverse_metric(const Vec4<T>& /*x*/) const {

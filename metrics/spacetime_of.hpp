@@ -10,6 +10,7 @@
 //   double horizon_radius() const, double default_r_min() const
 //   double proper_distance(const Vec4<double>&, int sheet) const
 //   double interface_radius() const                                  where derivatives of the metric jump
+//   PhaseState<T> flow_of_side(const PhaseState<T>&, bool inside)   goes with it: the flow of either side, past it too
 //   bool inside_domain(const Vec4<double>&) const
 //   to_hub, from_hub                                                 the map to the chart in which all charts meet:
 //     Vec4<T> to_hub(const Vec4<T>&, int sheet) const                as a point map, momenta by its Jacobian,
@@ -151,6 +152,11 @@ class SpacetimeOf final : public Spacetime {
   [[nodiscard]] std::optional<double> interface_radius() const override {
     if constexpr (requires { module_.interface_radius(); }) return module_.interface_radius();
     return std::nullopt;
+  }
+  [[nodiscard]] PhaseState<double> flow_of_side(const PhaseState<double>& y,
+                                                [[maybe_unused]] bool inside) const override {
+    if constexpr (requires { module_.interface_radius(); }) return module_.flow_of_side(y, inside);
+    return xpr::flow(module_, y);
   }
 
   [[nodiscard]] PhaseState<double> to_hub(const PhaseState<double>& y, [[maybe_unused]] int sheet) const override {
