@@ -68,7 +68,7 @@ PhaseState<double> general_light(const Spacetime& hub, const Spacetime& chart, d
   const SymTensor4<double> g = hub.inverse_metric(x);
   // The hub charts have no cross terms between the radial coordinate and the others, so H = 0 gives p_r squared.
   const Vec4<double> transverse = {-1.0, 0.0, p_theta, L};
-  const double p_r_squared = -contract(transverse, apply(g, transverse)) / g(1, 1);
+  const double p_r_squared = -contract(transverse, raise_index(g, transverse)) / g(1, 1);
   if (!(p_r_squared >= 0.0)) {
     throw std::domain_error(fmt::format("no light at r = {}, theta = {} with L = {}, p_theta = {}: p_r^2 = {}", r,
                                         theta, L, p_theta, p_r_squared));
