@@ -7,6 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/ray_angles.hpp"
+#include "metrics/scalar/elementary.hpp"
+
 namespace xpr {
 
 std::string method_label(const MethodAt& method) {
@@ -62,11 +65,10 @@ Row skipped_row(std::string label, std::string reason) {
   return row;
 }
 
-PhaseState<double> general_light(const Spacetime& hub, const Spacetime& chart, double r, double theta, double L,
-                                 double p_theta, bool inward) {
+ChartState general_light(const Spacetime& classical, const Spacetime& chart, double r, double theta, double L,
+                         double p_theta, bool inward) {
   const Vec4<double> x = {0.0, r, theta, 0.0};
-  const SymTensor4<double> g = hub.inverse_metric(x);
-  // The hub charts have no cross terms between the radial coordinate and the others, so H = 0 gives p_r squared.
+  const SymTensor4<double> g = classical.inverse_metric(x);
   const Vec4<double> transverse = {-1.0, 0.0, p_theta, L};
   const double p_r_squared = -contract(transverse, raise_index(g, transverse)) / g(1, 1);
   if (!(p_r_squared >= 0.0)) {
@@ -74,13 +76,28 @@ PhaseState<double> general_light(const Spacetime& hub, const Spacetime& chart, d
                                         theta, L, p_theta, p_r_squared));
   }
   const double p_r = (inward ? -1.0 : 1.0) * std::sqrt(p_r_squared);
-  const PhaseState<double> y(x, {-1.0, p_r, p_theta, L});
-  if (hub.card().chart == chart.card().chart) return y;
-  return chart.from_hub(y).first;
+  return change_chart(classical, chart, {x, {-1.0, p_r, p_theta, L}}, r < 0.0 ? -1 : 1);
 }
 
-PhaseState<double> equatorial_light(const Spacetime& hub, const Spacetime& chart, double r, double b, bool inward) {
-  return general_light(hub, chart, r, 0.5 * pi<double>(), b, 0.0, inward);
+ChartState equatorial_light(const Spacetime& classical, const Spacetime& chart, double r, double b, bool inward) {
+  return general_light(classical, chart, r, 0.5 * pi<double>(), b, 0.0, inward);
+}
+
+PhaseState<double> reversed(const PhaseState<double>& y) {
+  PhaseState<double> out = y;
+  for (std::size_t i = 4; i < 8; ++i) out[i] = -out[i];
+  return out;
+}
+
+SweptRay trace_swept(const Lab& lab, const Spacetime& classical, const Spacetime& chart, const ChartState& start,
+                     const TraceSettings& settings, std::span<const Event> events) {
+  SweptRay ray;
+  ray.start_classical = change_chart(chart, classical, start.state, start.sheet).state;
+  RayAngles angles(classical, chart, ray.start_classical, start);
+  ray.end = lab.trace(chart, start.state, start.sheet, settings, events, angles.observer());
+  const ChartState back = change_chart(*ray.end.chart, classical, ray.end.y, ray.end.sheet);
+  ray.end_classical = angles.continued(ray.end, back.state);
+  return ray;
 }
 
 double killing_constant(const Spacetime& chart, const PhaseState<double>& y, std::string_view name) {

@@ -2,11 +2,13 @@
 // the same way everywhere.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "integrators/tracer.hpp"
+#include "metrics/chart_map.hpp"
 #include "metrics/spacetime.hpp"
 #include "validation/case.hpp"
 
@@ -50,16 +52,32 @@ void grade_bound(Row& row, double quantity, const Tolerance& bound);
 /// A row for what could not be measured here, with the reason; printed as loudly as a failure.
 [[nodiscard]] Row skipped_row(std::string label, std::string reason);
 
-/// Light in the equatorial plane of `hub` (spherical: t, r or l, theta, phi) at radial coordinate `r`, phi = 0, with E
-/// = 1 and L = b (signed), moving inward or outward, expressed in `chart`. Throws std::domain_error where no such ray
-/// exists.
-[[nodiscard]] PhaseState<double> equatorial_light(const Spacetime& hub, const Spacetime& chart, double r, double b,
-                                                  bool inward = true);
+/// Light at (r, theta, phi = 0) of `classical` (spherical: t, r or l, theta, phi) with E = 1, azimuthal momentum L,
+/// polar momentum p_theta, moving inward or outward, expressed in `chart`. `classical` has no cross terms between the
+/// radial coordinate and the others. Throws std::domain_error where no such ray exists.
+[[nodiscard]] ChartState general_light(const Spacetime& classical, const Spacetime& chart, double r, double theta,
+                                       double L, double p_theta, bool inward = true);
 
-/// Light at (r, theta, phi = 0) of `hub` with E = 1, azimuthal momentum L, polar momentum p_theta, moving inward or
-/// outward, expressed in `chart`.
-[[nodiscard]] PhaseState<double> general_light(const Spacetime& hub, const Spacetime& chart, double r, double theta,
-                                               double L, double p_theta, bool inward = true);
+/// The same in the equatorial plane, with L = b (signed).
+[[nodiscard]] ChartState equatorial_light(const Spacetime& classical, const Spacetime& chart, double r, double b,
+                                          bool inward = true);
+
+/// The past-directed twin of a light ray: p -> -p, which runs the same ray backward in time.
+[[nodiscard]] PhaseState<double> reversed(const PhaseState<double>& y);
+
+/// A traced ray, and its end in the classical chart with angles continuous along the ray.
+struct SweptRay {
+  RayEnd end;
+  PhaseState<double> start_classical;
+  PhaseState<double> end_classical;
+  /// phi at the end less phi at the start, unwrapped.
+  [[nodiscard]] double azimuth() const { return end_classical[3] - start_classical[3]; }
+};
+
+/// Traces a ray that starts at `start` in `chart` and follows its classical angles.
+[[nodiscard]] SweptRay trace_swept(const Lab& lab, const Spacetime& classical, const Spacetime& chart,
+                                   const ChartState& start, const TraceSettings& settings,
+                                   std::span<const Event> events = {});
 
 /// L/E of a state, from the chart's own Killing vectors: the truth is evaluated at the stored doubles.
 [[nodiscard]] double impact_parameter(const Spacetime& chart, const PhaseState<double>& y);
