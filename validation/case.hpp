@@ -27,7 +27,7 @@ struct Fault {
                                            std::span<const NamedValue> values)>
       spacetime{};
   /// Replaces a stepper; returns null where this fault leaves the method alone.
-  StepperFactory stepper;
+  StepperFactory stepper{};
   /// Changes a traced ray's end (a wrong projection, a wrong event) where set.
   std::function<void(TraceSettings& settings)> settings{};
 };
