@@ -13,7 +13,6 @@ namespace {
 /// In report order.
 constexpr std::array families = {
     conformance_cases,
-    schwarzschild_cases,
 };
 
 }  // namespace

@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::array families = {
     metric_faults,
-    schwarzschild_faults,
 };
 
 }  // namespace
