@@ -25,11 +25,11 @@ struct Fault {
   /// Replaces a spacetime; returns null where this fault leaves the chart alone.
   std::function<std::unique_ptr<Spacetime>(std::string_view metric, std::string_view chart,
                                            std::span<const NamedValue> values)>
-      spacetime;
+      spacetime{};
   /// Replaces a stepper; returns null where this fault leaves the method alone.
-  StepperFactory stepper;
+  StepperFactory stepper{};
   /// Changes a traced ray's end (a wrong projection, a wrong event) where set.
-  std::function<void(TraceSettings& settings)> settings;
+  std::function<void(TraceSettings& settings)> settings{};
 };
 
 enum class SuiteSize { quick, full };

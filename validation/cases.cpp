@@ -13,6 +13,7 @@ namespace {
 /// In report order.
 constexpr std::array families = {
     conformance_cases,
+    schwarzschild_cases,
 };
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::array families = {
     metric_faults,
+    schwarzschild_faults,
 };
 
 }  // namespace
