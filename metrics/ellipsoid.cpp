@@ -22,16 +22,12 @@ EllipsoidGeographic EllipsoidTurned::atlas_partner() const { return {static_cast
 
 std::optional<AtlasMove> EllipsoidGeographic::atlas_switch(const PhaseState<double>& y, int sheet) const {
   if (!wants_other_chart(y)) return std::nullopt;
-  const EllipsoidTurned turned = atlas_partner();
-  return AtlasMove{map_state([&](const auto& x) { return turned.from_hub(x); },
-                             [&](const auto& x) { return turned.to_hub(x, 1); }, y),
-                   sheet};
+  return AtlasMove{state_from_hub(atlas_partner(), y, sheet), sheet};
 }
 
 std::optional<AtlasMove> EllipsoidTurned::atlas_switch(const PhaseState<double>& y, int sheet) const {
   if (!wants_other_chart(y)) return std::nullopt;
-  return AtlasMove{
-      map_state([&](const auto& x) { return to_hub(x, 1); }, [&](const auto& x) { return from_hub(x); }, y), sheet};
+  return AtlasMove{state_to_hub(*this, y, sheet), sheet};
 }
 
 template class SpacetimeOf<EllipsoidGeographic>;

@@ -17,7 +17,6 @@
 
 #include "metrics/atlas.hpp"
 #include "metrics/coordinates.hpp"
-#include "metrics/derived.hpp"
 #include "metrics/killing.hpp"
 
 namespace xpr {

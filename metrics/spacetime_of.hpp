@@ -159,28 +159,12 @@ class SpacetimeOf final : public Spacetime {
     return xpr::flow(module_, y);
   }
 
-  [[nodiscard]] PhaseState<double> to_hub(const PhaseState<double>& y, [[maybe_unused]] int sheet) const override {
-    if constexpr (requires { module_.to_hub(y, sheet); }) {
-      return module_.to_hub(y, sheet);
-    } else if constexpr (requires { module_.to_hub(y.x(), sheet); }) {
-      return map_state([&](const auto& x) { return module_.to_hub(x, sheet); },
-                       [&](const auto& x) { return module_.from_hub(x); }, y);
-    } else {
-      return y;
-    }
+  [[nodiscard]] PhaseState<double> to_hub(const PhaseState<double>& y, int sheet) const override {
+    return state_to_hub(module_, y, sheet);
   }
   [[nodiscard]] std::pair<PhaseState<double>, int> from_hub(const PhaseState<double>& y) const override {
-    int sheet = 1;
-    if constexpr (requires { module_.hub_sheet(y.x()); }) sheet = module_.hub_sheet(y.x());
-    if constexpr (requires { module_.from_hub(y); }) {
-      return {module_.from_hub(y), sheet};
-    } else if constexpr (requires { module_.from_hub(y.x()); }) {
-      return {map_state([&](const auto& x) { return module_.from_hub(x); },
-                        [&](const auto& x) { return module_.to_hub(x, sheet); }, y),
-              sheet};
-    } else {
-      return {y, sheet};
-    }
+    const int sheet = sheet_at_hub(module_, y.x());
+    return {state_from_hub(module_, y, sheet), sheet};
   }
 
   [[nodiscard]] std::optional<ChartSwitch> atlas_switch([[maybe_unused]] const PhaseState<double>& y,

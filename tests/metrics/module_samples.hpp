@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "metrics/modules.hpp"
+#include "metrics/scalar/dual.hpp"
 
 namespace xpr::samples {
 
@@ -145,6 +146,14 @@ template <class T>
 PhaseState<T> widened(const PhaseState<double>& y) {
   PhaseState<T> out;
   for (std::size_t i = 0; i < 8; ++i) out[i] = T(y[i]);
+  return out;
+}
+
+/// y with one dual direction for each of its eight components.
+template <class T = double>
+PhaseState<Dual<T, 8>> seeded(const PhaseState<double>& y) {
+  PhaseState<Dual<T, 8>> out;
+  out.c = variables(widened<T>(y).c);
   return out;
 }
 
