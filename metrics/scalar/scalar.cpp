@@ -1,1 +1,0 @@
-#include "metrics/scalar/scalar.hpp"
