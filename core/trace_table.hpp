@@ -24,9 +24,9 @@ struct TraceTableSettings {
   bool renormalise = false;  ///< put rays onto the light cone instead of refusing those that are off it
   int threads = 0;           ///< 0: one for each core
   /// Called now and then from the calling thread, with rays done and in all.
-  std::function<void(std::int64_t done, std::int64_t rays)> progress;
+  std::function<void(std::int64_t done, std::int64_t rays)> progress = {};
   /// Asked now and then from any thread; true ends the work with Interrupted.
-  std::function<bool()> interrupted;
+  std::function<bool()> interrupted = {};
 };
 
 struct TraceTableResult {

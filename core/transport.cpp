@@ -135,7 +135,9 @@ TracedRay Transport::trace(const Ray& ray) const {
   RayAngles angles(*chart_, *transport, ray.start, start);
   const RayEnd end = trace_ray(*transport, start.state, start.sheet, trace, {}, angles.observer());
 
-  const ChartState back = change_chart(*end.chart, *chart_, end.y, end.sheet);
+  ChartState back = change_chart(*end.chart, *chart_, end.y, end.sheet);
+  // A chart that covers both sides of a wormhole tells them apart by the sign of l.
+  if (const auto l = chart_->proper_distance(back.state.x(), back.sheet)) back.sheet = *l < 0.0 ? -1 : 1;
   return {.id = ray.id,
           .status = end.status,
           .sheet = back.sheet,

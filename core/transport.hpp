@@ -37,10 +37,10 @@ struct TracedRay {
 
 struct TransportSettings {
   std::string metric = "kerr";
-  std::vector<NamedValue> parameters;
-  std::string chart;            ///< of the ray table; empty: the metric's first
-  std::string transport_chart;  ///< empty: the regular one, chosen for each ray by the sign of p^t
-  TraceSettings trace;          ///< stops left unset get their defaults (DESIGN section 4)
+  std::vector<NamedValue> parameters = {};
+  std::string chart = {};            ///< of the ray table; empty: the metric's first
+  std::string transport_chart = {};  ///< empty: the regular one, chosen for each ray by the sign of p^t
+  TraceSettings trace = {};          ///< stops left unset get their defaults (DESIGN section 4)
 };
 
 /// A spacetime made ready to transport rays. Immutable; trace() may be called from many threads.

@@ -125,6 +125,8 @@ AtomicFile::~AtomicFile() {
   if (!aside_.empty()) fs::remove(aside_, ignored);
 }
 
+void AtomicFile::write(const std::string& content) const { Descriptor(aside_, O_WRONLY | O_TRUNC).write(content); }
+
 void AtomicFile::commit() {
   if (regular_) {
     Descriptor(aside_, O_RDONLY).sync();
@@ -193,7 +195,7 @@ void AtomicDirectory::commit() {
 
 void write_file(const fs::path& target, const std::string& content) {
   AtomicFile file(target);
-  Descriptor(file.path(), O_WRONLY).write(content);
+  file.write(content);
   file.commit();
 }
 

@@ -19,6 +19,8 @@ class AtomicFile {
 
   /// Write here, and close before commit().
   [[nodiscard]] const std::filesystem::path& path() const { return aside_; }
+  /// Writes the whole content aside.
+  void write(const std::string& content) const;
   /// The target is, or will be, a regular file: files may be put beside it.
   [[nodiscard]] bool regular() const { return regular_; }
   void commit();

@@ -1,0 +1,73 @@
+#include "command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+
+#include "metrics/catalogue.hpp"
+
+namespace xpr::cli {
+namespace {
+
+volatile std::sig_atomic_t interrupt_seen = 0;
+
+void note_interrupt(int) { interrupt_seen = 1; }
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(seconds + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+}  // namespace
+
+void add_output_flags(CLI::App& command, OutputFlags& flags) {
+  command.add_flag("--quiet", flags.quiet, "Print nothing but errors");
+  command.add_flag("--json", flags.json, "Print one JSON object a line on standard output");
+}
+
+void add_example(CLI::App& command, const std::string& lines) { command.footer("Example:\n" + lines); }
+
+std::string unknown_name(std::string_view what, std::string_view name, const std::vector<std::string_view>& known) {
+  const std::string near = nearest_name(name, known);
+  if (!near.empty()) return fmt::format("unknown {} '{}'; did you mean '{}'?", what, name, near);
+  return fmt::format("unknown {} '{}'; there are {}", what, name, fmt::join(known, ", "));
+}
+
+ProgressLine::ProgressLine(std::string label, bool wanted)
+    : label_(std::move(label)), shown_(wanted && ::isatty(STDERR_FILENO) == 1), begin_(seconds_now()) {}
+
+ProgressLine::~ProgressLine() {
+  if (drawn_) fmt::print(stderr, "\r\033[K");
+}
+
+void ProgressLine::update(std::int64_t done, std::int64_t total) {
+  const double elapsed = seconds_now() - begin_;
+  if (!shown_ || elapsed - last_drawn_ < 0.2) return;
+  last_drawn_ = elapsed;
+  drawn_ = true;
+  const double left = done > 0 ? elapsed * static_cast<double>(total - done) / static_cast<double>(done) : 0.0;
+  fmt::print(stderr, "\r\033[K{}: {} of {}, {} left", label_, done, total, duration_text(left));
+  std::fflush(stderr);
+}
+
+void catch_interrupts() {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction action {};
+    action.sa_handler = note_interrupt;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+bool interrupted() { return interrupt_seen != 0; }
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace xpr::cli
