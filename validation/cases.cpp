@@ -12,6 +12,7 @@ namespace {
 
 /// In report order.
 constexpr std::array families = {
+    numerical_cases,
     conformance_cases,
     schwarzschild_cases,
 };

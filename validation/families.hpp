@@ -9,6 +9,7 @@ namespace xpr {
 
 [[nodiscard]] std::vector<Case> conformance_cases();  ///< what must hold of every metric module, whatever it describes
 [[nodiscard]] std::vector<Case> schwarzschild_cases();  ///< deflection, capture, the photon sphere, time
+[[nodiscard]] std::vector<Case> numerical_cases();      ///< what the integrators promise of themselves
 
 [[nodiscard]] std::vector<Fault> metric_faults();         ///< wrong-on-purpose spacetimes
 [[nodiscard]] std::vector<Fault> schwarzschild_faults();  ///< wrong closed forms
