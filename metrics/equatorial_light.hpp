@@ -12,10 +12,12 @@
 
 namespace xpr::equatorial_light {
 
-/// P(u) of one ray. Where it `turns`, u1 < 0 < u2 < u3 and `gap` = u3 - u2; else u1 is the one real root and rho +- i
-/// sigma the pair. d = 0 (b = a, the principal null ray) has P = 1 and no roots: `straight`.
+/// P(u) of one ray. With three real roots u1 < 0 < u2 < u3 and `gap` = u3 - u2, and the ray `turns` at u2 if that lies
+/// outside the horizon (for b just above a it does not). Else u1 is the one real root and rho +- i sigma the pair. d =
+/// 0 (b = a, the principal null ray) has P = 1 and no roots: `straight`.
 struct Ray {
   Quad mass, spin, s, d;  ///< spin, s and d in units of the mass; mass as given
+  bool three_real_roots = false;
   bool turns = false;
   bool straight = false;
   Quad u1, u2, gap;

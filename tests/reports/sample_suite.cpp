@@ -112,7 +112,7 @@ CaseResult critical(Sampler& sampler) {
                  .truth = "closed form in the spin",
                  .rank = TruthRank::closed_form,
                  .grades_metric = true,
-                 .cites = "Bardeen1972",
+                 .cites = "BardeenPressTeukolsky1972",
                  .source = "validation/families/kerr.cpp"};
   for (const double a : {0.0, 0.3, 0.7, 0.9, 0.998, 1.0}) {
     const double prograde_radius = 2.0 * (1.0 + std::cos(2.0 / 3.0 * std::acos(-a)));
