@@ -45,6 +45,11 @@ struct Spheroid {
     const T e_sq = eccentricity_squared<T>();
     return e_sq * (2.0 - e_sq - e_sq * square(nu_3)) / square(1.0 - e_sq);
   }
+  /// Gaussian curvature 1 / (m N) = w^4 / (a_axis^2 (1 - e^2)): the Ricci tensor is that times the surface's metric.
+  [[nodiscard]] double gaussian_curvature(double nu_3) const {
+    const double e_sq = eccentricity_squared<double>();
+    return square((1.0 - e_sq * square(nu_3)) / a_axis) / (1.0 - e_sq);
+  }
   /// Distance from the centre, the flat direction included.
   template <class T>
   [[nodiscard]] constexpr T centre_distance(const T& nu_3, const T& z) const {
@@ -102,6 +107,15 @@ struct EllipsoidGeographic : Spheroid {
     return {time_translation<T>(), KillingVectorOf<T>{"L_z", 1.0, {zero, zero, one, zero}},
             KillingVectorOf<T>{"p_z", 1.0, {zero, zero, zero, one}}};
   }
+  [[nodiscard]] SymTensor4<double> declared_ricci(const Vec4<double>& x) const {
+    const auto [sin_lat, cos_lat] = sincos(x[1]);
+    const double e_sq = eccentricity_squared<double>();
+    const double w_sq = 1.0 - e_sq * square(sin_lat);
+    const double n_sq = square(a_axis) / w_sq;
+    const double curvature = gaussian_curvature(sin_lat);
+    return diagonal<double>(0.0, curvature * n_sq * square((1.0 - e_sq) / w_sq), curvature * n_sq * square(cos_lat),
+                            0.0);
+  }
   [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x); }
 
   [[nodiscard]] EllipsoidTurned atlas_partner() const;
@@ -149,6 +163,20 @@ struct EllipsoidTurned : Spheroid {
     return {time_translation<T>(),
             KillingVectorOf<T>{"L_z", 1.0, {zero, -cos_lambda, -sin_beta * sin_lambda / cos_beta, zero}},
             KillingVectorOf<T>{"p_z", 1.0, {zero, zero, zero, T(1.0)}}};
+  }
+  [[nodiscard]] SymTensor4<double> declared_ricci(const Vec4<double>& x) const {
+    const auto [sin_beta, cos_beta] = sincos(x[1]);
+    const auto [sin_lambda, cos_lambda] = sincos(x[2]);
+    const double nu_3 = cos_beta * sin_lambda, d_beta = -sin_beta * sin_lambda, d_lambda = cos_beta * cos_lambda;
+    const double e_sq = eccentricity_squared<double>();
+    const double w_sq = 1.0 - e_sq * square(nu_3);
+    const double k = e_sq * (2.0 - e_sq - e_sq * square(nu_3)) / square(w_sq);
+    const double scale = gaussian_curvature(nu_3) * square(a_axis) / w_sq;
+    SymTensor4<double> ricci{};
+    ricci(1, 1) = scale * (1.0 - k * square(d_beta));
+    ricci(1, 2) = -scale * k * d_beta * d_lambda;
+    ricci(2, 2) = scale * (square(cos_beta) - k * square(d_lambda));
+    return ricci;
   }
   [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x); }
 

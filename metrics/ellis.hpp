@@ -74,6 +74,16 @@ struct EllisIsotropic : EllisThroat {
     return spherical_symmetry_cartesian(x);
   }
   [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x) && euclidean_radius(x) > 0.0; }
+  /// R_ll = -2 b0^2 / r^4 alone, with dl = (1 + b0^2 / 4 rho^2) d rho = (r / rho) d rho.
+  [[nodiscard]] SymTensor4<double> declared_ricci(const Vec4<double>& x) const {
+    const double rho = euclidean_radius(x);
+    const double scale = -2.0 * square(b0 / (radius(x) * square(rho)));
+    SymTensor4<double> ricci{};
+    for (std::size_t i = 1; i < 4; ++i) {
+      for (std::size_t j = i; j < 4; ++j) ricci(i, j) = scale * x[i] * x[j];
+    }
+    return ricci;
+  }
 
   template <class T>
   [[nodiscard]] constexpr PhaseState<T> to_hub(const PhaseState<T>& y, int sheet) const {
@@ -146,6 +156,9 @@ struct EllisProperDistance : EllisThroat {
     return spherical_symmetry(x);
   }
   [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x); }
+  [[nodiscard]] SymTensor4<double> declared_ricci(const Vec4<double>& x) const {
+    return diagonal<double>(0.0, -2.0 * square(b0 / (square(b0) + square(x[1]))), 0.0, 0.0);
+  }
   [[nodiscard]] int hub_sheet(const Vec4<double>& x) const { return x[1] < 0.0 ? -1 : 1; }
 };
 

@@ -24,6 +24,13 @@ struct IndexSquared {
   T slope;
 };
 
+/// The lapse 1 / n and its first two derivatives in |x|^2, written out from the profile: what curvature is declared by.
+struct Lapse {
+  double value;
+  double slope;
+  double second;
+};
+
 struct UniformIndex {
   double n = 1.5;
 
@@ -38,6 +45,7 @@ struct UniformIndex {
                              .cites = "Gordon1923 BornWolf1999"};
   static constexpr std::array<Parameter<UniformIndex>, 1> parameters{
       {{"n", &UniformIndex::n, "refractive index, n > 0"}}};
+  static constexpr bool flat = true;
 
   /// Throws std::invalid_argument: the value and the allowed range.
   void validate() const;
@@ -77,6 +85,13 @@ struct LuneburgIndex {
     const T inv = 1.0 / square(T(R));
     return {2.0 - distance_sq * inv, -inv};
   }
+  [[nodiscard]] Lapse lapse(double distance_sq) const {
+    if (distance_sq >= R * R) return {1.0, 0.0, 0.0};
+    const double n_sq = 2.0 - distance_sq / (R * R);
+    const double value = 1.0 / std::sqrt(n_sq);
+    const double slope = 0.5 * value / (n_sq * R * R);
+    return {value, slope, 1.5 * slope / (n_sq * R * R)};
+  }
   [[nodiscard]] double interface_radius() const { return R; }
 };
 
@@ -103,6 +118,9 @@ struct FisheyeIndex {
     const T n = 2.0 * radius_sq / (radius_sq + distance_sq);
     const T n_sq = square(n);
     return {n_sq, -n_sq * n / radius_sq};
+  }
+  [[nodiscard]] Lapse lapse(double distance_sq) const {
+    return {0.5 * (1.0 + distance_sq / (R * R)), 0.5 / (R * R), 0.0};
   }
 };
 
@@ -141,6 +159,23 @@ struct Medium : Index {
     }
   }
   [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x); }
+
+  /// A static lapse N over flat space: R_tt = N div grad N, R_ij = -d_i d_j N / N.
+  [[nodiscard]] SymTensor4<double> declared_ricci(const Vec4<double>& x) const requires requires(const Index& index) {
+    index.lapse(0.0);
+  }
+  {
+    const double distance_sq = distance_squared(x);
+    const Lapse n = this->lapse(distance_sq);
+    SymTensor4<double> ricci{};
+    ricci(0, 0) = n.value * (6.0 * n.slope + 4.0 * distance_sq * n.second);
+    for (std::size_t i = 1; i < 4; ++i) {
+      for (std::size_t j = i; j < 4; ++j) {
+        ricci(i, j) = -((i == j ? 2.0 * n.slope : 0.0) + 4.0 * n.second * x[i] * x[j]) / n.value;
+      }
+    }
+    return ricci;
+  }
 
  private:
   template <class T>

@@ -20,6 +20,7 @@ struct MinkowskiCartesian {
                              .asymptotically_flat = true,
                              .cites = "MisnerThorneWheeler1973"};
   static constexpr bool separable = true;
+  static constexpr bool flat = true;
 
   template <Scalar T>
   [[nodiscard]] constexpr SymTensor4<T> inverse_metric(const Vec4<T>& /*x*/) const {
@@ -50,6 +51,7 @@ struct MinkowskiSpherical {
                              .vacuum = true,
                              .asymptotically_flat = true,
                              .cites = "MisnerThorneWheeler1973"};
+  static constexpr bool flat = true;
 
   template <Scalar T>
   [[nodiscard]] constexpr SymTensor4<T> inverse_metric(const Vec4<T>& x) const {

@@ -64,6 +64,11 @@ class Spacetime {
   [[nodiscard]] virtual PhaseState<Dual<double, 8>> flow(const PhaseState<Dual<double, 8>>& y) const = 0;
   [[nodiscard]] virtual Connection<double> christoffel(const Vec4<double>& x) const = 0;
   [[nodiscard]] virtual Curvature curvature(const Vec4<double>& x) const = 0;
+  /// The Ricci tensor R_{mu nu} that the module claims to have: zero in vacuum, else what it declares; nothing where it
+  /// declares nothing. Conformance compares the derived one with it.
+  [[nodiscard]] virtual std::optional<SymTensor4<double>> declared_ricci(const Vec4<double>& x) const = 0;
+  /// Whether the module claims that there is no curvature at all.
+  [[nodiscard]] virtual bool declared_flat() const = 0;
   [[nodiscard]] virtual double null_residual(const PhaseState<double>& y) const = 0;
 
   /// The radius that stops refer to (DESIGN: Boyer-Lindquist r, areal r where spherical, |x| in flat space and media).

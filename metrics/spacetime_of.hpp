@@ -7,6 +7,8 @@
 //                                                                    beyond the ignorable coordinates' own
 //   T carter_constant(const PhaseState<T>&) const
 //   static constexpr bool separable                                    H = T(p_i) + V(x^i, p_t): Stoermer-Verlet works
+//   SymTensor4<double> declared_ricci(const Vec4<double>&) const     R_{mu nu} where it is known and not zero
+//   static constexpr bool flat                                       true: no curvature at all
 //   double horizon_radius() const, double default_r_min() const
 //   double proper_distance(const Vec4<double>&, int sheet) const
 //   double interface_radius() const                                  where derivatives of the metric jump
@@ -88,6 +90,16 @@ class SpacetimeOf final : public Spacetime {
     return xpr::christoffel(module_, x);
   }
   [[nodiscard]] Curvature curvature(const Vec4<double>& x) const override { return xpr::curvature(module_, x); }
+  [[nodiscard]] std::optional<SymTensor4<double>> declared_ricci(
+      [[maybe_unused]] const Vec4<double>& x) const override {
+    if constexpr (requires { module_.declared_ricci(x); }) return module_.declared_ricci(x);
+    if (M::card.vacuum) return SymTensor4<double>{};
+    return std::nullopt;
+  }
+  [[nodiscard]] bool declared_flat() const override {
+    if constexpr (requires { M::flat; }) return M::flat;
+    return false;
+  }
   [[nodiscard]] double null_residual(const PhaseState<double>& y) const override {
     return xpr::null_residual(module_, y);
   }
