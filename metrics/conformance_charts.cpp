@@ -202,7 +202,7 @@ void check_same_metric(const Subject& subject, const Spacetime& sibling, std::ve
   Finding finding =
       finish(subject, fmt::format("same-metric:{}", sibling.card().chart),
              fmt::format("the metric is that of chart {}, carried over as a tensor", sibling.card().chart), worst,
-             {1e-11,
+             {1e-10,
               "round-off, 2e-16 times 1/sin(theta) = 50 near the axis and a hundred operations; errors are in "
               "units of the square of the map's stretch"});
   if (finding.state == FindingState::failed) {
