@@ -62,12 +62,10 @@ std::vector<std::string> trouble_lines(const Digest& digest) {
   std::vector<std::string> lines;
   for (const RowOfCase& at : digest.failures) {
     const Row& row = *at.row;
-    std::string line = fmt::format("{:<12} {}: {}", verdict_word(row.verdict), at.result->info.id, row.label);
-    if (measured(row)) {
-      line += fmt::format(" (error {}, tolerance {})", two_digits(row.error), two_digits(row.tolerance));
-    } else if (!row.note.empty()) {
-      line += " (" + row.note + ")";
-    }
+    std::string line = fmt::format("{:<12} ", verdict_word(row.verdict));
+    if (measured(row)) line += fmt::format("{} x tolerance, ", two_digits_or_na(error_over_tolerance(row)));
+    line += fmt::format("{}: {}", at.result->info.id, row.label);
+    if (!measured(row) && !row.note.empty()) line += " (" + row.note + ")";
     lines.push_back(std::move(line));
   }
   for (const FaultResult* fault : digest.missed_faults) {

@@ -333,46 +333,95 @@ def error_over_tolerance(report):
     return figure, "Error over tolerance", caption
 
 
-def schwarzschild_deflection(report):
-    case = report.case("schwarzschild/deflection")
-    b = None if case is None else parameter(case, "b", "impact_parameter")
-    if b is None:
-        return None, "", ""
+def runs_of(case, good):
+    """Masks of the rows of each (method, setting), keyed by it; where there are many, the tightest of each method."""
+    methods, settings = text(case["method"]), case["setting"][()]
+    runs = {}
+    for k in np.flatnonzero(good):
+        setting = float(settings[k]) if math.isfinite(settings[k]) else 0.0
+        runs.setdefault((methods[k], setting), np.zeros(len(good), dtype=bool))[k] = True
+    if len(runs) > 4:
+        tightest = {method: min(setting for known, setting in runs if known == method) for method, _ in runs}
+        runs = {run: mask for run, mask in runs.items() if run[1] == tightest[run[0]]}
+    return dict(sorted(runs.items(), key=lambda item: (method_rank(item[0][0]), -item[0][1])))
+
+
+def worst_at(x, y):
+    """The largest y at each x, in the order of x."""
+    places = np.unique(x)
+    return places, np.array([y[x == place].max() for place in places])
+
+
+def deflection_figure(case, excess, critical, limits):
+    """Deflection against the distance from the critical impact parameter, and its errors below."""
     value, reference, error, tolerance = (case[name][()] for name in ("value", "reference", "error", "tolerance"))
-    methods = text(case["method"])
-    excess = b / math.sqrt(27) - 1
     good = np.isfinite(excess) & (excess > 0) & np.isfinite(value) & np.isfinite(error)
     if not good.any():
-        return None, "", ""
-    figure, (above, below) = plt.subplots(2, 1, figsize=(6.8, 6.4), sharex=True, height_ratios=(3, 2))
+        return None
+    figure, (above, below) = plt.subplots(2, 1, figsize=(7.2, 6.8), sharex=True, height_ratios=(1, 1))
     log_log(above)
     log_log(below)
-    order = np.argsort(excess[good], kind="stable")
-    above.plot(excess[good][order], reference[good][order], color=BLACK, linewidth=1.2, label="exact", zorder=2)
-    near = np.geomspace(excess[good].min(), 0.3, 60)
-    far = np.geomspace(0.5, max(excess[good].max(), 1.0), 60)
-    constant = math.log(216 * (7 - 4 * math.sqrt(3))) - math.pi
-    guide = {"color": GREY, "linewidth": 1.1, "zorder": 1}
-    above.plot(far, 4 / (math.sqrt(27) * (1 + far)), linestyle=(0, (5, 3)), label="4M/b", **guide)
-    if near[0] < 0.1:
-        above.plot(near, constant - np.log(near), linestyle=(0, (1, 1.5)), label="strong-field logarithm", **guide)
-    for method in sorted(set(methods), key=method_rank):
-        chosen = good & np.array([one == method for one in methods])
-        look = {**look_of(method), "linestyle": "none"}
-        above.plot(excess[chosen], value[chosen], label=method or "no stepping", zorder=3, **look)
-        below.plot(excess[chosen], np.maximum(error[chosen], ROUND_OFF), zorder=3, **look)
-    limits = [limit for limit in tolerance[good] if limit > 0]
-    for x, limit in zip(excess[good], tolerance[good]):
-        below.plot([x / 1.25, x * 1.25], [limit, limit], color=BLACK, linewidth=1.1, zorder=2)
-    unit = case["value"].attrs["units"]
-    above.set_ylabel("deflection α" + unit_suffix(unit))
-    below.set_ylabel("error of α" + unit_suffix(unit))
-    below.set_xlabel("$b/b_c-1$,   $b_c=\\sqrt{27}\\,M$")
-    below.set_ylim(*tight_decades(np.maximum(error[good], ROUND_OFF), high=max(limits, default=None)))
+    for label, dashes, x, y in limits(excess[good].min(), excess[good].max()):
+        above.plot(x, y, color=GREY, linewidth=1.1, linestyle=dashes, label=label, zorder=1)
+    above.plot(*worst_at(excess[good], reference[good]), color=BLACK, linewidth=1.2, label="exact", zorder=2)
+    above.plot(*worst_at(excess[good], value[good]), linestyle="none", marker="o", color=BLUE, label="traced", zorder=3)
+    runs = runs_of(case, good)
+    for (method, setting), mask in runs.items():
+        look = look_of(method)
+        shade = 1.0 if setting == min(other for known, other in runs if known == method) else 0.6
+        name = method + (f" at {setting:.0e}".replace("e-0", "e-") if setting > 0 else "")
+        below.plot(*worst_at(excess[mask], np.maximum(error[mask], ROUND_OFF)), label=name or "no stepping",
+                   alpha=shade, zorder=3, **look)
+        below.plot(*worst_at(excess[mask], tolerance[mask]), color=look["color"], linewidth=1.0,
+                   linestyle=(0, (1, 1.5)), zorder=2)
+    units = unit_suffix(case["value"].attrs["units"])
+    above.set_ylabel("deflection α" + units)
+    below.set_ylabel("largest error of α" + units)
+    below.set_xlabel(f"$b/b_c-1$,   {critical}")
+    seen = np.concatenate([np.maximum(error[good], ROUND_OFF), tolerance[good]])
+    below.set_ylim(*tight_decades(seen))
     above.legend()
-    return figure, "Deflection by a Schwarzschild hole", (
-        "Above: deflection against impact parameter, traced (markers) and exact (line), with its two limits. Below: the "
-        "difference; short bars are the tolerances. Differences below round-off stand at 1.1e-16.")
+    below.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    return figure
+
+
+DEFLECTION_CAPTION = ("Above: deflection against impact parameter, traced and exact, with its limits. Below: the largest "
+                      "difference over charts for each method and setting, and as dotted lines in the same colour the "
+                      "tolerances that it is held to. Differences below round-off stand at 1.1e-16.")
+
+
+def schwarzschild_deflection(report):
+    case = report.case("schwarzschild/deflection")
+    ratio = None if case is None else parameter(case, "b_over_b_c")
+    b = None if case is None else parameter(case, "b")
+    if ratio is None and b is None:
+        return None, "", ""
+    excess = ratio - 1 if ratio is not None else b / math.sqrt(27) - 1
+
+    def limits(nearest, furthest):
+        far = np.geomspace(0.5, max(furthest, 1.0), 60)
+        yield "4M/b", (0, (5, 3)), far, 4 / (math.sqrt(27) * (1 + far))
+        if nearest < 0.1:
+            near = np.geomspace(nearest, 0.3, 60)
+            constant = math.log(216 * (7 - 4 * math.sqrt(3))) - math.pi
+            yield "strong-field logarithm", (0, (1, 1.5)), near, constant - np.log(near)
+
+    figure = deflection_figure(case, excess, "$b_c=\\sqrt{27}\\,M$", limits)
+    return figure, "Deflection by a Schwarzschild hole", DEFLECTION_CAPTION
+
+
+def ellis_deflection(report):
+    case = report.case("ellis/deflection")
+    ratio = None if case is None else parameter(case, "b")
+    if ratio is None:
+        return None, "", ""
+
+    def limits(nearest, furthest):
+        far = np.geomspace(max(nearest, 0.3), max(furthest, 1.0), 60)
+        yield "$(\\pi/4)\\,(b_0/b)^2$", (0, (5, 3)), far, math.pi / 4 / (1 + far) ** 2
+
+    figure = deflection_figure(case, ratio - 1, "$b_c=b_0$, the throat", limits)
+    return figure, "Deflection by an Ellis wormhole", DEFLECTION_CAPTION
 
 
 def bardeen_edge(spin, inclination):
@@ -485,6 +534,7 @@ def kerr_critical(report):
 FIGURES = {
     "error-over-tolerance": error_over_tolerance,
     "schwarzschild-deflection": schwarzschild_deflection,
+    "ellis-deflection": ellis_deflection,
     "kerr-shadow-edge": kerr_shadow,
     "kerr-critical": kerr_critical,
     "work-precision": work_precision,
