@@ -13,8 +13,8 @@ StepOutcome Dop853Stepper::step(const PhaseState<double>& y, double h) {
   end_step(out.y);
 
   // The estimate of order 5, damped by that of order 3 so that the whole shrinks as h^8 (Hairer's combination).
-  PhaseState<double> fifth = dop853::weighted_rate<dop853::error5>(k_);
-  PhaseState<double> third = dop853::weighted_rate<dop853::error3>(k_);
+  PhaseState<double> fifth = dop853::weighted_rate<dop853::error_estimates, 0>(k_);
+  PhaseState<double> third = dop853::weighted_rate<dop853::error_estimates, 1>(k_);
   for (std::size_t i = 0; i < 8; ++i) {
     fifth[i] *= h;
     third[i] *= h;
@@ -29,8 +29,8 @@ PhaseState<double> Dop853Stepper::interpolate(double theta) {
   if (!dense_ready_) {
     k_[12] = end_rate();
     dop853::dense_stages_of(counted_flow(), begin(), step_size(), k_);
-    dense_ = {dop853::weighted_rate<dop853::d[0]>(k_), dop853::weighted_rate<dop853::d[1]>(k_),
-              dop853::weighted_rate<dop853::d[2]>(k_), dop853::weighted_rate<dop853::d[3]>(k_)};
+    dense_ = {dop853::weighted_rate<dop853::d, 0>(k_), dop853::weighted_rate<dop853::d, 1>(k_),
+              dop853::weighted_rate<dop853::d, 2>(k_), dop853::weighted_rate<dop853::d, 3>(k_)};
     dense_ready_ = true;
   }
   PhaseState<double> y = hermite(theta);

@@ -13,13 +13,13 @@ namespace dop853 {
 template <class T>
 using Stages = std::array<PhaseState<T>, dense_stages>;
 
-/// sum_j row_j k_j over the non-zero entries of a row that is known at compile time.
-template <const Row& row, class T>
+/// sum_j row_j k_j over the non-zero entries of row R of a table that is known at compile time.
+template <const auto& table, std::size_t R, class T>
 [[nodiscard]] constexpr PhaseState<T> weighted_rate(const Stages<T>& k) {
   PhaseState<T> sum{};
   const auto add = [&]<std::size_t J>() {
-    if constexpr (row[J] != 0.0) {
-      for (std::size_t i = 0; i < 8; ++i) sum[i] = sum[i] + row[J] * k[J][i];
+    if constexpr (table[R][J] != 0.0) {
+      for (std::size_t i = 0; i < 8; ++i) sum[i] = sum[i] + table[R][J] * k[J][i];
     }
   };
   [&]<std::size_t... J>(std::index_sequence<J...>) { (add.template operator()<J>(), ...); }
@@ -27,9 +27,10 @@ template <const Row& row, class T>
   return sum;
 }
 
-template <const Row& row, class T, class H>
-[[nodiscard]] constexpr PhaseState<T> advanced(const PhaseState<T>& y, const H& h, const Stages<T>& k) {
-  PhaseState<T> out = weighted_rate<row>(k);
+/// y + h times the rate that row R of `a` weighs.
+template <std::size_t R, class T, class H>
+[[nodiscard]] constexpr PhaseState<T> stage(const PhaseState<T>& y, const H& h, const Stages<T>& k) {
+  PhaseState<T> out = weighted_rate<a, R>(k);
   for (std::size_t i = 0; i < 8; ++i) out[i] = y[i] + h * out[i];
   return out;
 }
@@ -37,17 +38,17 @@ template <const Row& row, class T, class H>
 /// The end of one step. On entry k[0] holds flow(y); on return k[0] to k[11] hold the stages.
 template <class T, class H, class FlowT>
 [[nodiscard]] constexpr PhaseState<T> step(FlowT&& flow, const PhaseState<T>& y, const H& h, Stages<T>& k) {
-  [&]<std::size_t... S>(std::index_sequence<S...>) { ((k[S + 1] = flow(advanced<a[S + 1]>(y, h, k))), ...); }
+  [&]<std::size_t... S>(std::index_sequence<S...>) { ((k[S + 1] = flow(stage<S + 1>(y, h, k))), ...); }
   (std::make_index_sequence<stages - 1>{});
-  return advanced<a[stages]>(y, h, k);
+  return stage<stages>(y, h, k);
 }
 
 /// The three further stages of the dense output. On entry k[0] to k[12] are known, k[12] being the flow at the end.
 template <class T, class H, class FlowT>
 constexpr void dense_stages_of(FlowT&& flow, const PhaseState<T>& y, const H& h, Stages<T>& k) {
-  k[13] = flow(advanced<a[13]>(y, h, k));
-  k[14] = flow(advanced<a[14]>(y, h, k));
-  k[15] = flow(advanced<a[15]>(y, h, k));
+  k[13] = flow(stage<13>(y, h, k));
+  k[14] = flow(stage<14>(y, h, k));
+  k[15] = flow(stage<15>(y, h, k));
 }
 
 }  // namespace dop853

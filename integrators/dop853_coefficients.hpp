@@ -82,6 +82,8 @@ inline constexpr Row error3 = [] {
   return difference;
 }();
 
+inline constexpr std::array<Row, 2> error_estimates = {error5, error3};
+
 /// Weights of the last four terms of the dense output.
 inline constexpr std::array<Row, 4> d = {{
     {{-0.84289382761090128651353491142e+1, 0.0, 0.0, 0.0, 0.0, 0.56671495351937776962531783590,
