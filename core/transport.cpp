@@ -141,7 +141,7 @@ TracedRay Transport::trace(const Ray& ray) const {
   return {.id = ray.id,
           .status = end.status,
           .sheet = back.sheet,
-          .end = angles.continued(end, back.state),
+          .end = end.lambda == 0.0 ? ray.start : angles.continued(end, back.state),  // stopped where it began
           .lambda = end.lambda,
           .steps = end.steps,
           .rejected = end.rejected,

@@ -33,9 +33,9 @@ std::vector<std::string> entries_of(const std::string& path, const std::string& 
   std::vector<std::string> entries;
   for (const auto& [name, value] : table) {
     const std::string prefix = std::string(name.str()) + "=";
-    const auto same = [&](const std::string& entry) { return entry.starts_with(prefix); };
-    if (std::any_of(given.begin(), given.end(), same)) continue;
-    entries.push_back(prefix + argument_text(path, key, value));
+    const std::string entry = prefix + argument_text(path, key, value);
+    const auto same = [&](const std::string& other) { return other.starts_with(prefix); };
+    if (std::none_of(given.begin(), given.end(), same)) entries.push_back(entry);
   }
   return entries;
 }
