@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "metrics/scalar/elementary.hpp"
+
 namespace xpr {
 
 namespace {
@@ -39,15 +41,15 @@ double quantile(std::vector<double> values, double q) {
 
 double order_between(double setting1, double error1, double setting2, double error2) {
   if (!(error1 > 0.0 && error2 > 0.0)) return nan;
-  return std::log(error1 / error2) / std::log(setting1 / setting2);
+  return log(error1 / error2) / log(setting1 / setting2);
 }
 
 double fitted_slope(std::span<const double> settings, std::span<const double> errors) {
   const auto n = static_cast<double>(settings.size());
   double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    const double x = std::log(settings[i]);
-    const double y = std::log(errors[i]);
+    const double x = log(settings[i]);
+    const double y = log(errors[i]);
     sx += x;
     sy += y;
     sxx += x * x;
@@ -92,7 +94,7 @@ double richardson_error(std::span<const Rung> ladder, std::size_t last, double o
   if (last < 1) return nan;
   constexpr double safety = 1.25;  // Roache's factor for an order that was observed
   const double ratio = ladder[last - 1].setting / ladder[last].setting;
-  return safety * distance(ladder[last - 1].values, ladder[last].values) / (std::pow(ratio, order) - 1.0);
+  return safety * distance(ladder[last - 1].values, ladder[last].values) / (pow(ratio, order) - 1.0);
 }
 
 CleanOrder clean_order(std::span<const double> settings, std::span<const double> errors,

@@ -13,5 +13,6 @@ namespace xpr {
 
 [[nodiscard]] std::vector<Fault> metric_faults();         ///< wrong-on-purpose spacetimes
 [[nodiscard]] std::vector<Fault> schwarzschild_faults();  ///< wrong closed forms
+[[nodiscard]] std::vector<Fault> numerical_faults();  ///< wrong steppers, events and projections
 
 }  // namespace xpr

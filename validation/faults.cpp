@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::array families = {
     metric_faults,
+    numerical_faults,
     schwarzschild_faults,
 };
 

@@ -1,6 +1,8 @@
 // The numerical family: every row of the quick suite passes, and every fault planted under it is caught.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "validation/convergence.hpp"
 #include "validation/families.hpp"
 #include "validation/suite.hpp"
@@ -27,6 +29,23 @@ INSTANTIATE_TEST_SUITE_P(all, NumericalCase, testing::ValuesIn(numerical_cases()
   for (char& c : name) c = c == '-' ? '_' : c;
   return name;
 });
+
+TEST(NumericalFaults, are_all_caught) {
+  const std::vector<Fault> planted = numerical_faults();
+  const std::vector<Case> all = numerical_cases();
+  for (const FaultResult& result : run_self_test(planted, all, SuiteSize::quick)) {
+    EXPECT_TRUE(result.caught) << result.id << " by " << result.case_id << ": " << result.row << " error "
+                               << result.error << " tolerance " << result.tolerance << "; " << result.note;
+  }
+}
+
+TEST(NumericalFaults, leave_no_case_without_a_negative_control) {
+  const std::vector<Fault> planted = numerical_faults();
+  for (const Case& one : numerical_cases()) {
+    EXPECT_TRUE(std::any_of(planted.begin(), planted.end(), [&](const Fault& f) { return f.case_id == one.info.id; }))
+        << one.info.id;
+  }
+}
 
 TEST(Convergence, order_of_a_power_law_is_its_power) {
   EXPECT_DOUBLE_EQ(order_between(0.1, 1e-4, 0.05, 6.25e-6), 4.0);

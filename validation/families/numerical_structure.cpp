@@ -218,6 +218,37 @@ std::vector<Row> reversal_rows(const Lab& lab) {
   return rows;
 }
 
+/// A step after a rejected try of another length, and after a step elsewhere, against the first step of a new stepper.
+Row repeated_row(const Lab& lab, const Bundle& bundle, const MethodCard& card) {
+  const Flow flow = bundle.flow();
+  double worst = 0.0;
+  std::int64_t evaluations = 0;
+  for (std::size_t i = 0; i < bundle.starts.size(); ++i) {
+    const PhaseState<double>& y = bundle.starts[i];
+    const std::unique_ptr<Stepper> used = lab.stepper(card.id, flow, {});
+    (void)used->step(bundle.starts[(i + 1) % bundle.starts.size()], 0.5);
+    (void)used->step(y, 1.0);
+    const PhaseState<double> again = used->step(y, 0.25).y;
+    const PhaseState<double> fresh = make_stepper(card.id, flow, {})->step(y, 0.25).y;
+    for (std::size_t k = 0; k < 8; ++k) worst = std::max(worst, std::abs(again[k] - fresh[k]));
+    evaluations += used->evaluations();
+  }
+  Row row = make_row(fmt::format("a step after a rejected one with {}", card.id), *bundle.chart,
+                     {std::string(card.id), 0.25}, {{"rays", static_cast<double>(bundle.starts.size()), "1"}});
+  row.evaluations = evaluations;
+  grade_bound(row, worst, {epsilon * 15.0, "the same bits are expected; one rounding of 15 M is allowed"});
+  return row;
+}
+
+std::vector<Row> repeated_rows(const Lab& lab) {
+  std::vector<Row> rows;
+  const Bundle kerr = kerr_rays(lab, 8);
+  for (const MethodCard& card : methods()) {
+    if (!card.separable_only && card.id != "odeint:bulirsch-stoer") rows.push_back(repeated_row(lab, kerr, card));
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::vector<Case> structure_cases() {
@@ -237,6 +268,13 @@ std::vector<Case> structure_cases() {
                     "the leading term where p is even: the miss shrinks as h^(p+1) for even p, h^p for odd p.",
                     "the start itself", TruthRank::closed_form, "HairerLubichWanner2006", "numerical_structure.cpp"),
        .run = reversal_rows},
+      {.info =
+           info("repeated-steps", "a step depends on its start and its length alone: a rejected try leaves no trace",
+                "A stepper that has stepped elsewhere and tried a longer step from the same point, against a new "
+                "one. Bulirsch-Stoer is left out: it takes its order from the steps before.",
+                "the first step of a new stepper", TruthRank::self_convergence, "HairerNorsettWanner1993",
+                "numerical_structure.cpp"),
+       .run = repeated_rows},
   };
 }
 

@@ -20,6 +20,7 @@ struct Measured {
   double error = 0.0;       ///< root mean square over rays and components
   double null_drift = 0.0;  ///< root mean square of the largest null residuals
   std::int64_t evaluations = 0;
+  std::int64_t steps = 0;  ///< the most that any ray took
 };
 
 Measured measure(const Lab& lab, const Bundle& bundle, const MethodAt& method) {
@@ -33,6 +34,7 @@ Measured measure(const Lab& lab, const Bundle& bundle, const MethodAt& method) {
     ends.push_back(end.y);
     drifts.push_back(end.null_residual_max);
     out.evaluations += end.evaluations;
+    out.steps = std::max(out.steps, end.steps);
   }
   out.error = distance(spatial_components(ends), spatial_components(bundle.ends));
   out.null_drift = root_mean_square(drifts);
@@ -43,10 +45,25 @@ constexpr double decades = 6.0;  // from 1e-5, where steps are short enough, to 
 
 Tolerance slope_tolerance(int order) {
   return {
-      1.0 / order + std::log10(2.0) / decades,
+      1.0 / order + 0.30 / decades,
       fmt::format("where the leading error term is small the next one shows, h^(p+1): slope up to 1 + 1/{}; and the "
                   "error constant may change by 2 over {:g} decades as the steps fall differently",
                   order, decades)};
+}
+
+/// Proportionality alone would pass a method that errs a million tolerances.
+Row error_row(const Bundle& bundle, const MethodCard& card, double tol, double error, std::int64_t steps) {
+  Row row = make_row(fmt::format("error at the tightest tolerance, {}", card.id), *bundle.chart,
+                     {std::string(card.id), tol}, {{"rays", static_cast<double>(bundle.starts.size()), "1"}});
+  row.note = fmt::format("{:.2g} tolerances", error / tol);
+  const double size = root_mean_square(spatial_components(bundle.starts));
+  grade_bound(
+      row, error,
+      {static_cast<double>(steps) * tol * (1.0 + size) * 2.0,
+       fmt::format("{} steps, each within tol = {:g} of 1 + |x|, {:.2g} in the mean, amplified by about 2 along "
+                   "the ray",
+                   steps, tol, size)});
+  return row;
 }
 
 std::vector<Row> proportionality_rows(const Lab& lab, const Bundle& bundle) {
@@ -54,13 +71,14 @@ std::vector<Row> proportionality_rows(const Lab& lab, const Bundle& bundle) {
   for (const MethodCard& card : methods()) {
     if (!card.adaptive) continue;
     std::vector<double> tolerances, errors, drifts;
-    std::int64_t evaluations = 0;
+    std::int64_t evaluations = 0, steps = 0;
     for (double tol = 1e-5; tol > 0.5e-11; tol *= 0.1) {
       const Measured measured = measure(lab, bundle, {std::string(card.id), tol, Projection::none});
       tolerances.push_back(tol);
       errors.push_back(measured.error);
       drifts.push_back(measured.null_drift);
       evaluations += measured.evaluations;
+      steps = measured.steps;
     }
     const auto row = [&](std::string_view what, const std::vector<double>& values) {
       Row out = make_row(fmt::format("slope of {} against tolerance, {}", what, card.id), *bundle.chart,
@@ -75,6 +93,7 @@ std::vector<Row> proportionality_rows(const Lab& lab, const Bundle& bundle) {
     };
     rows.push_back(row("error", errors));
     rows.push_back(row("null drift", drifts));
+    rows.push_back(error_row(bundle, card, tolerances.back(), errors.back(), steps));
   }
   return rows;
 }
