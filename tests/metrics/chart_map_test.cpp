@@ -214,8 +214,8 @@ TEST(ChartMaps, through_a_spherical_chart_lose_next_to_the_axis_what_angles_cann
       // theta near pi is a multiple of 4.4e-16: r times half of it, plus round-off. Directions about the axis turn by
       // that over the offset.
       const double lost = z < 0.0 ? 4.0 * 2.3e-16 : 0.0;
-      for (const std::size_t i : {1, 2}) EXPECT_NEAR(back[i], y[i], 2.0 * lost + 64.0 * unit * offset) << z << offset;
-      for (const std::size_t i : {5, 6, 7}) EXPECT_NEAR(back[i], y[i], lost / offset + 64.0 * unit) << z << offset;
+      for (const std::size_t i : {1U, 2U}) EXPECT_NEAR(back[i], y[i], 2.0 * lost + 64.0 * unit * offset) << z << offset;
+      for (const std::size_t i : {5U, 6U, 7U}) EXPECT_NEAR(back[i], y[i], lost / offset + 64.0 * unit) << z << offset;
     }
   }
 }

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <string>
 
 #include "metrics/derived.hpp"
 #include "metrics/scalar/multiprecision.hpp"
@@ -12,12 +11,6 @@ namespace xpr {
 namespace {
 
 constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
-
-std::string describe(const Card& card, const PhaseState<double>& y) {
-  std::string out = std::string(card.metric) + " in " + std::string(card.chart) + " at";
-  for (const double c : y.c) out += " " + std::to_string(c);
-  return out;
-}
 
 /// |v| as a double.
 double size(const Real50& v) { return std::abs(static_cast<double>(v)); }
@@ -46,7 +39,7 @@ TEST(EveryModule, inverse_metric_agrees_with_fifty_digits_to_round_off) {
       const double flat = samples::is_cartesian(module.card) ? 1.0 : 0.0;
       const double scale = (conditioned_size(exact.c[i], y) + flat) * unit;
       // Half a dozen roundings on the way to a component; 3.6 units measured.
-      EXPECT_LE(error, 8.0 * scale) << describe(module.card, y) << " component " << i;
+      EXPECT_LE(error, 8.0 * scale) << samples::describe(module.card, y) << " component " << i;
     }
   });
 }
@@ -91,8 +84,9 @@ TEST(EveryModule, both_flows_agree_with_fifty_digits_to_round_off) {
       const bool share = i >= 4 && samples::is_cartesian(module.card);  // forces of one unit, made from one vector
       const double scale = (share ? largest : exact.scale[i]) * unit;
       // A dozen roundings on the way to a sum of terms; 8.0 units measured by hand, 5.1 derived.
-      EXPECT_LE(size(fast[i] - exact.rate[i]), 16.0 * scale) << describe(module.card, y) << " component " << i;
-      EXPECT_LE(size(derived[i] - exact.rate[i]), 16.0 * scale) << describe(module.card, y) << " component " << i;
+      EXPECT_LE(size(fast[i] - exact.rate[i]), 16.0 * scale) << samples::describe(module.card, y) << " component " << i;
+      EXPECT_LE(size(derived[i] - exact.rate[i]), 16.0 * scale)
+          << samples::describe(module.card, y) << " component " << i;
     }
   });
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "metrics/modules.hpp"
@@ -106,6 +107,13 @@ std::vector<Sample<M>> samples_of(std::type_identity<M>) {
   } else {
     return {{M{}, events_at(M::card, {1e-3, 1.0, 20.0})}};
   }
+}
+
+/// Which module and where, for a failure's message.
+inline std::string describe(const Card& card, const PhaseState<double>& y) {
+  std::string out = std::string(card.metric) + " in " + std::string(card.chart) + " at";
+  for (const double c : y.c) out += " " + std::to_string(c);
+  return out;
 }
 
 /// A covector of order one, generic but fixed by `seed`; angular components grow with the radius so that all matter.

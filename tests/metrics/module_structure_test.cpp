@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <string>
 
 #include "metrics/scalar/multiprecision.hpp"
 #include "metrics/spacetimes.hpp"
@@ -12,12 +11,6 @@ namespace xpr {
 namespace {
 
 constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
-
-std::string describe(const Card& card, const PhaseState<double>& y) {
-  std::string out = std::string(card.metric) + " in " + std::string(card.chart) + " at";
-  for (const double c : y.c) out += " " + std::to_string(c);
-  return out;
-}
 
 /// |a| |b|: what the round-off of a product of matrices is measured against.
 Matrix4<double> product_of_sizes(const Matrix4<double>& a, const Matrix4<double>& b) {
@@ -50,7 +43,8 @@ TEST(EveryModule, covariant_metric_is_the_inverse) {
         for (std::size_t k = 0; k < 4; ++k) sum += up[mu][k] * down[k][nu];
         // Minors are sums of a dozen products, and share one determinant: its round-off grows with the worst condition
         // of any component. Next to the horizon Boyer-Lindquist's block of t and phi is nearly singular.
-        EXPECT_NEAR(sum, mu == nu ? 1.0 : 0.0, 16.0 * unit * worst * condition[mu][nu]) << describe(module.card, y);
+        EXPECT_NEAR(sum, mu == nu ? 1.0 : 0.0, 16.0 * unit * worst * condition[mu][nu])
+            << samples::describe(module.card, y);
       }
     }
   });
@@ -70,7 +64,7 @@ TEST(EveryModule, derivatives_by_duals_are_those_of_fifty_digit_differences) {
         const Real50 slope = (upper.c[c] - lower.c[c]) / (2 * h);
         // Truncation h^2 g''' / 6: at the sharpest point, 1e-5 from the axis, g''' / g is 2e16.
         const Real50 scale = abs(g.c[c].derivative[mu]) + abs(g.c[c].value);
-        EXPECT_LE(abs(slope - g.c[c].derivative[mu]), scale * Real50("1e-15")) << describe(module.card, y);
+        EXPECT_LE(abs(slope - g.c[c].derivative[mu]), scale * Real50("1e-15")) << samples::describe(module.card, y);
       }
     }
   });
@@ -81,7 +75,7 @@ TEST(EveryModule, ignorable_coordinates_do_not_appear_in_the_metric) {
     const auto g = module.inverse_metric(variables(y.x()));
     for (std::size_t mu = 0; mu < 4; ++mu) {
       if (!module.card.ignorable[mu]) continue;
-      for (const auto& component : g.c) EXPECT_EQ(component.derivative[mu], 0.0) << describe(module.card, y);
+      for (const auto& component : g.c) EXPECT_EQ(component.derivative[mu], 0.0) << samples::describe(module.card, y);
     }
   });
 }
@@ -114,7 +108,7 @@ TEST(EveryModule, killing_vectors_make_constants_of_the_motion) {
       double reach = 0.0;
       for (const auto& component : killing.component) reach = std::max(reach, std::abs(component.value));
       EXPECT_LE(std::abs(along.rate), 64.0 * unit * (along.scale + reach * largest_force))
-          << killing.name << " of " << describe(module.card, y);
+          << killing.name << " of " << samples::describe(module.card, y);
     }
   });
 }
@@ -128,7 +122,7 @@ TEST(EveryModule, carters_constant_is_constant_where_it_exists) {
         const PhaseState<Dual<double, 8>> state = samples::seeded(y);
         const PhaseState<double> rate = derived_flow(kerr, y);
         const Drift along = drift(kerr.carter_constant(state), rate);
-        EXPECT_LE(std::abs(along.rate), 1e-12 * along.scale) << describe(M::card, y);
+        EXPECT_LE(std::abs(along.rate), 1e-12 * along.scale) << samples::describe(M::card, y);
       });
     }
   });
