@@ -152,8 +152,11 @@ const char* to_string(Outcome outcome) {
 }
 
 bool measured(const Row& row) {
-  if (row.verdict == Verdict::skipped) return false;
-  return row.verdict != Verdict::error || row.value != 0.0 || row.reference != 0.0 || row.tolerance != 0.0;
+  if (row.verdict != Verdict::error) return row.verdict != Verdict::skipped;
+  // judge() calls a row an error only for a number that is not finite or a tolerance that is no tolerance; with usable
+  // numbers, or none, the measurement itself broke off.
+  const bool finite = std::isfinite(row.value) && std::isfinite(row.reference) && std::isfinite(row.reference_error);
+  return !finite || (!(row.tolerance > 0.0) && (row.value != 0.0 || row.reference != 0.0));
 }
 
 double error_over_tolerance(const Row& row) {

@@ -63,13 +63,13 @@ TEST(Digest, of_skipped_rows_alone_is_not_a_pass) {
 TEST(Digest, tells_the_tail_of_error_over_tolerance) {
   SuiteResult suite;
   CaseResult& result = suite.cases.emplace_back();
-  // Errors 1/1024 to 200/1024 of a tolerance of 1: exact in binary. Nearest rank: p99 of 200 is the 198th.
-  for (int k = 1; k <= 200; ++k) result.rows.push_back(row_with(k / 1024.0, 1.0));
+  // Errors 1/1024 to 150/1024 of a tolerance of 1: exact in binary. Nearest rank: p99 of 150 is the 149th.
+  for (int k = 1; k <= 150; ++k) result.rows.push_back(row_with(k / 1024.0, 1.0));
   const RatioTail tail = digest(suite).families.at(0).tail;
-  EXPECT_EQ(tail.rows, 200);
-  EXPECT_EQ(tail.median, 100.5 / 1024.0);
-  EXPECT_EQ(tail.p99, 198.0 / 1024.0);
-  EXPECT_EQ(tail.max, 200.0 / 1024.0);
+  EXPECT_EQ(tail.rows, 150);
+  EXPECT_EQ(tail.median, 75.5 / 1024.0);
+  EXPECT_EQ(tail.p99, 149.0 / 1024.0);
+  EXPECT_EQ(tail.max, 150.0 / 1024.0);
 }
 
 TEST(Digest, counts_an_error_that_is_not_finite_as_infinitely_bad) {
@@ -85,6 +85,9 @@ TEST(Digest, gives_no_numbers_to_rows_that_were_not_measured) {
   Row thrown;
   thrown.verdict = Verdict::error;
   EXPECT_FALSE(measured(thrown));
+  thrown.reference = 2.0;
+  thrown.tolerance = 1.0;
+  EXPECT_FALSE(measured(thrown)) << "truth and tolerance were set before the ray broke off";
   EXPECT_TRUE(measured(row_with(0.0, 1.0)));
 }
 

@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -18,6 +19,7 @@ import h5py
 import numpy as np
 
 SAMPLE_REPORT = sys.argv.pop(1)
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "tools/figures"
 FIGURES = ["convergence", "error-over-tolerance", "kerr-critical", "kerr-shadow-edge", "null-drift",
            "schwarzschild-deflection", "tolerance", "work-precision"]
 
@@ -228,9 +230,11 @@ class BadDays(unittest.TestCase):
             self.assertEqual((self.root / "out/report.h5").read_bytes(), before)
 
     def test_one_figure_that_fails_does_not_take_the_others_with_it(self):
-        script = pathlib.Path(self.root) / "script.py"
-        source = (pathlib.Path(__file__).resolve().parents[2] / "tools/figures/report_figures.py").read_text()
-        script.write_text(source.replace("def kerr_shadow(report):", "def kerr_shadow(report):\n    raise ValueError('x')"))
+        shutil.copytree(SCRIPTS, self.root / "scripts")
+        broken = self.root / "scripts/spacetime_figures.py"
+        broken.write_text(broken.read_text().replace("def kerr_shadow(report):",
+                                                     "def kerr_shadow(report):\n    raise ValueError('x')"))
+        script = self.root / "scripts/report_figures.py"
         done = write_report("passing", self.root / "out", env={**os.environ, "XPRIMERAY_FIGURE_SCRIPT": str(script)})
         self.assertEqual(done.returncode, 0)
         self.assertEqual(done.stderr, "A FIGURE IS MISSING: kerr-shadow-edge: ValueError: x\n")
@@ -243,7 +247,7 @@ class BadDays(unittest.TestCase):
         with h5py.File(self.root / "out/report.h5", "a") as file:
             for group in ("sweeps", "cases/kerr", "cases/schwarzschild"):
                 del file[group]
-        script = pathlib.Path(__file__).resolve().parents[2] / "tools/figures/report_figures.py"
+        script = SCRIPTS / "report_figures.py"
         for expected in (["error-over-tolerance"], []):
             folder = self.root / f"figures-{len(expected)}"
             done = subprocess.run([sys.executable, "-B", script, self.root / "out/report.h5", folder],
