@@ -12,9 +12,8 @@ namespace {
 
 /// In report order.
 constexpr std::array families = {
-    numerical_cases,
-    conformance_cases,
-    schwarzschild_cases,
+    conformance_cases,  //
+    flat_cases,        schwarzschild_cases, ellis_cases, media_cases, ellipsoid_cases, numerical_cases,
 };
 
 }  // namespace

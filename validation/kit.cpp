@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -98,6 +99,15 @@ SweptRay trace_swept(const Lab& lab, const Spacetime& classical, const Spacetime
   const ChartState back = change_chart(*ray.end.chart, classical, ray.end.y, ray.end.sheet);
   ray.end_classical = angles.continued(ray.end, back.state);
   return ray;
+}
+
+double angle_between(const PhaseState<double>& a, const PhaseState<double>& b) {
+  const auto direction = [](const PhaseState<double>& y) {
+    return std::array<double, 3>{std::sin(y[2]) * std::cos(y[3]), std::sin(y[2]) * std::sin(y[3]), std::cos(y[2])};
+  };
+  const auto u = direction(a), v = direction(b);
+  const double cross = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+  return std::atan2(cross, u[0] * v[0] + u[1] * v[1] + u[2] * v[2]);
 }
 
 double killing_constant(const Spacetime& chart, const PhaseState<double>& y, std::string_view name) {

@@ -79,6 +79,9 @@ struct SweptRay {
                                    const ChartState& start, const TraceSettings& settings,
                                    std::span<const Event> events = {});
 
+/// The angle between the directions (theta, phi) of two states of a spherical chart, without loss near 0 and pi.
+[[nodiscard]] double angle_between(const PhaseState<double>& a, const PhaseState<double>& b);
+
 /// L/E of a state, from the chart's own Killing vectors: the truth is evaluated at the stored doubles.
 [[nodiscard]] double impact_parameter(const Spacetime& chart, const PhaseState<double>& y);
 

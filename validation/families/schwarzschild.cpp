@@ -363,16 +363,6 @@ std::vector<Row> time_rows(const Lab& lab) {
   return rows;
 }
 
-/// The angle between two directions given by polar angles, without loss near 0 and pi.
-double angle_between(const PhaseState<double>& a, const PhaseState<double>& b) {
-  const auto direction = [](const PhaseState<double>& y) {
-    return std::array<double, 3>{std::sin(y[2]) * std::cos(y[3]), std::sin(y[2]) * std::sin(y[3]), std::cos(y[2])};
-  };
-  const auto u = direction(a), v = direction(b);
-  const double cross = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
-  return std::atan2(cross, u[0] * v[0] + u[1] * v[1] + u[2] * v[2]);
-}
-
 std::vector<Row> chart_rows(const Lab& lab) {
   std::vector<Row> rows;
   struct Member {

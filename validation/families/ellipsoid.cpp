@@ -1,0 +1,121 @@
+// Null rays of R x ellipsoid against GeographicLib's exact geodesics: an oracle that nobody here wrote.
+#include <fmt/format.h>
+
+#include <GeographicLib/GeodesicExact.hpp>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "metrics/chart_map.hpp"
+#include "metrics/scalar/elementary.hpp"
+#include "validation/families.hpp"
+#include "validation/kit.hpp"
+
+namespace xpr {
+
+namespace {
+
+struct Body {
+  std::string_view name;
+  double a, f;
+};
+constexpr std::array<Body, 2> bodies{{{"WGS84", 6378137.0, 1.0 / 298.257223563}, {"f = 1/3", 1.0, 1.0 / 3.0}}};
+
+struct Launch {
+  std::string_view name;
+  double latitude, azimuth;  ///< degrees
+  double length;             ///< in units of the semi-major axis
+};
+// Generic, along the equator, over the pole exactly and almost, nearly antipodal, several times around.
+constexpr std::array<Launch, 7> launches{{{"north-east", 30.0, 45.0, 0.8},
+                                          {"equator", 0.0, 90.0, 1.5},
+                                          {"over the pole", 20.0, 0.0, 3.0},
+                                          {"past the pole", 20.0, 0.01, 3.0},
+                                          {"from the pole's cap", 85.0, 120.0, 2.5},
+                                          {"nearly antipodal", -15.0, 60.0, 3.1},
+                                          {"three times around", 40.0, 70.0, 19.0}}};
+
+constexpr double degree = 0.017453292519943295;
+
+/// Light at a latitude (degrees), longitude 0, along an azimuth clockwise from north, E = 1.
+PhaseState<double> light(const Body& body, double latitude, double azimuth) {
+  const double e_sq = body.f * (2.0 - body.f);
+  const double w_sq = 1.0 - e_sq * square(std::sin(latitude * degree));
+  const double prime_vertical = body.a / std::sqrt(w_sq);
+  const double meridian = prime_vertical * (1.0 - e_sq) / w_sq;
+  return {{0.0, latitude * degree, 0.0, 0.0},
+          {-1.0, meridian * std::cos(azimuth * degree),
+           prime_vertical * std::cos(latitude * degree) * std::sin(azimuth * degree), 0.0}};
+}
+
+/// The point of the surface with a given geographic normal: where two ends are compared, poles included.
+std::array<double, 3> on_surface(const Body& body, double latitude, double longitude) {
+  const double e_sq = body.f * (2.0 - body.f);
+  const double prime_vertical = body.a / std::sqrt(1.0 - e_sq * square(std::sin(latitude)));
+  return {prime_vertical * std::cos(latitude) * std::cos(longitude),
+          prime_vertical * std::cos(latitude) * std::sin(longitude),
+          prime_vertical * (1.0 - e_sq) * std::sin(latitude)};
+}
+
+std::vector<Row> geodesic_rows(const Lab& lab) {
+  std::vector<Row> rows;
+  std::vector<MethodAt> methods = {{"dop853", 1e-13}, {"dopri54", 1e-10}};
+  if (lab.full()) methods.insert(methods.end(), {{"dop853", 1e-9}, {"rkf45", 1e-10}, {"odeint:rkf78", 1e-12}});
+  for (const Body& body : bodies) {
+    const std::array<NamedValue, 2> values{{{"a_axis", body.a}, {"f", body.f}}};
+    const auto chart = lab.spacetime("ellipsoid", "geographic", values);
+    const GeographicLib::GeodesicExact oracle(body.a, body.f);
+    for (const Launch& launch : launches) {
+      double latitude = 0.0, longitude = 0.0, azimuth = 0.0;
+      oracle.Direct(launch.latitude, 0.0, launch.azimuth, launch.length * body.a, latitude, longitude, azimuth);
+      const auto truth = on_surface(body, latitude * degree, longitude * degree);
+      for (const MethodAt& method : methods) {
+        const std::array<Event, 1> arrival{
+            {{.name = "path length",
+              .g = [&](const Spacetime&, const PhaseState<double>& y, int) { return y[0] - launch.length * body.a; },
+              .terminal = true}}};
+        const RayEnd end =
+            lab.trace(*chart, light(body, launch.latitude, launch.azimuth), 1, trace_settings(method, body.a), arrival);
+        const PhaseState<double> y = change_chart(*end.chart, *chart, end.y, end.sheet).state;
+        const auto traced = on_surface(body, y[1], y[2]);
+        Row row = make_row(fmt::format("{}, {}, {} {:g}", body.name, launch.name, method_label(method), method.setting),
+                           *chart, method,
+                           {{"latitude", launch.latitude, "degree"},
+                            {"azimuth", launch.azimuth, "degree"},
+                            {"length", launch.length, "a"},
+                            {"f", body.f, "1"}});
+        row.evaluations = end.evaluations;
+        const double off = std::hypot(traced[0] - truth[0], traced[1] - truth[1], traced[2] - truth[2]) / body.a;
+        Tolerance tolerance = accumulated(end, method.setting, 1.0 + launch.length);
+        tolerance.value += 2e-14 * (1.0 + launch.length);
+        tolerance.reason +=
+            "; neighbouring geodesics part at most linearly with the length; degrees to radians and back";
+        // GeodesicExact states 15 nm on the Earth's a, about 2.5e-15 a.
+        grade(row, off, {0.0, 2.5e-15}, tolerance);
+        rows.push_back(std::move(row));
+      }
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<Case> ellipsoid_cases() {
+  return {{{.id = "ellipsoid/geodesics",
+            .family = "ellipsoid",
+            .claim = "Null rays of R x ellipsoid are the geodesics of the ellipsoid, run through in time t.",
+            .physics =
+                "ds^2 = -dt^2 + h: the end point after t = s, against the direct geodesic problem; over the poles the "
+                "atlas turns to its second chart.",
+            .truth = "GeographicLib::GeodesicExact, elliptic integrals (Karney)",
+            .rank = TruthRank::high_precision,
+            .grades_metric = true,
+            .cites = "Karney2013",
+            .source = "validation/families/ellipsoid.cpp"},
+           true,
+           geodesic_rows}};
+}
+
+}  // namespace xpr
