@@ -124,7 +124,8 @@ class SpacetimeOf final : public Spacetime {
     }
     for (std::size_t mu = 0; mu < 4; ++mu) {
       const Coordinate& coordinate = M::card.coordinates[mu];
-      if (coordinate.kind == CoordinateKind::azimuth || coordinate.kind == CoordinateKind::polar_angle) continue;
+      // An angle beyond its range is a point too: the one that is reached over the axis, or once more around.
+      if (coordinate.kind != CoordinateKind::time && coordinate.kind != CoordinateKind::length) continue;
       if (!(x[mu] >= coordinate.lower && x[mu] <= coordinate.upper)) return false;
     }
     return true;

@@ -61,7 +61,7 @@ std::array<double, 3> on_surface(const Body& body, double latitude, double longi
 std::vector<Row> geodesic_rows(const Lab& lab) {
   std::vector<Row> rows;
   std::vector<MethodAt> methods = {{"dop853", 1e-13}, {"dopri54", 1e-10}};
-  if (lab.full()) methods.insert(methods.end(), {{"dop853", 1e-9}, {"rkf45", 1e-10}, {"odeint:rkf78", 1e-12}});
+  if (lab.full()) methods.insert(methods.end(), {{"dop853", 1e-9}, {"rkf45", 1e-10}, {"odeint:dopri5", 1e-11}});
   for (const Body& body : bodies) {
     const std::array<NamedValue, 2> values{{{"a_axis", body.a}, {"f", body.f}}};
     const auto chart = lab.spacetime("ellipsoid", "geographic", values);
@@ -91,6 +91,11 @@ std::vector<Row> geodesic_rows(const Lab& lab) {
         tolerance.value += 2e-14 * (1.0 + launch.length);
         tolerance.reason +=
             "; neighbouring geodesics part at most linearly with the length; degrees to radians and back";
+        if (end.status != Status::crossed) {
+          row.note = fmt::format("the ray ended as '{}' before it had gone its way", to_string(end.status));
+          rows.push_back(std::move(row));
+          continue;
+        }
         // GeodesicExact states 15 nm on the Earth's a, about 2.5e-15 a.
         grade(row, off, {0.0, 2.5e-15}, tolerance);
         rows.push_back(std::move(row));

@@ -112,6 +112,11 @@ std::vector<MethodAt> deflection_methods(const Lab& lab) {
   return methods;
 }
 
+constexpr const char* blind_pair =
+    "Fehlberg's 7(8) pair cannot see its own error here: its two formulas differ by 41/840 (k1 + k11 - k12 - k13), "
+    "which "
+    "is zero wherever the force depends on lambda alone, as along a nearly straight ray; measured 1e-9 at tol 1e-12";
+
 std::vector<Row> deflection_rows(const Lab& lab) {
   std::vector<Row> rows;
   const std::vector<std::string_view> transports =
@@ -121,6 +126,10 @@ std::vector<Row> deflection_rows(const Lab& lab) {
     const Charts at = charts(lab, transport);
     for (const double ratio : {1.0001, 1.001, 1.01, 1.1, 1.5, 3.0, 20.0, 200.0, 1924.5}) {
       for (const MethodAt& method : deflection_methods(lab)) {
+        if (method.method == "odeint:rkf78" && ratio > 100.0) {
+          rows.push_back(skipped_row(fmt::format("b = {} b_c, {}, odeint:rkf78", ratio, transport), blind_pair));
+          continue;
+        }
         const double b = ratio * critical_b;
         Row row =
             make_row(fmt::format("b = {} b_c, {}, {} {:g}", ratio, transport, method_label(method), method.setting),
