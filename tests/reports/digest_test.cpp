@@ -24,7 +24,7 @@ TEST(Digest, of_a_passing_suite_says_so_and_lists_no_failure) {
   const Digest found = digest(suite);
   EXPECT_EQ(found.outcome, Outcome::passed);
   EXPECT_EQ(found.sentence,
-            "PASSED: all 86 graded rows lie within tolerance of their references; all 2 planted faults caught.");
+            "PASSED: all 98 graded rows lie within tolerance of their references; all 2 planted faults caught.");
   EXPECT_TRUE(found.failures.empty());
   EXPECT_TRUE(found.missed_faults.empty());
 }
@@ -37,8 +37,8 @@ TEST(Digest, of_a_troubled_suite_counts_every_trouble) {
   EXPECT_EQ(found.counts.error, 2);
   EXPECT_EQ(found.counts.inconclusive, 1);
   EXPECT_EQ(found.counts.skipped, 1);
-  for (const char* said : {"1 of 87 graded rows out of tolerance", "2 of 87 graded rows not measured",
-                           "1 of 87 graded rows undecided", "1 of 3 planted faults UNNOTICED", "1 row SKIPPED"}) {
+  for (const char* said : {"1 of 99 graded rows out of tolerance", "2 of 99 graded rows not measured",
+                           "1 of 99 graded rows undecided", "1 of 3 planted faults UNNOTICED", "1 row SKIPPED"}) {
     EXPECT_NE(found.sentence.find(said), std::string::npos) << said << " not in: " << found.sentence;
   }
 }
@@ -105,7 +105,7 @@ TEST(Coverage, shows_what_nothing_grades_and_what_only_a_sweep_touches) {
   for (const CoverageCell& cell : matrix.cells[0]) EXPECT_EQ(cell.counts.total() + cell.sweep_points, 0);
   EXPECT_EQ(matrix.cells[1][0].counts.total(), 0);
   EXPECT_EQ(matrix.cells[1][0].sweep_points, 6);
-  EXPECT_EQ(matrix.cells[1][1].counts.pass, 12);
+  EXPECT_EQ(matrix.cells[1][1].counts.pass, 24);
 }
 
 TEST(Coverage, counts_a_projected_method_under_its_method) {

@@ -68,7 +68,7 @@ TEST_F(Reports, put_the_verdict_on_top_and_failures_before_every_table_of_rows) 
     EXPECT_NE(position, std::string::npos) << what;
     return position;
   };
-  EXPECT_LT(at("**ERROR: 1 of 87"), at("## How to reproduce"));
+  EXPECT_LT(at("**ERROR: 1 of 99"), at("## How to reproduce"));
   EXPECT_LT(at("xprimeray validate --suite quick"), at("## Failures"));
   EXPECT_LT(at("## Failures"), at("## Skipped"));
   EXPECT_LT(at("## Skipped"), at("## Coverage"));

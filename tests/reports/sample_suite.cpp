@@ -105,7 +105,7 @@ CaseResult shadow(Sampler& sampler) {
 
 CaseResult critical(Sampler& sampler) {
   CaseResult result;
-  result.info = {.id = "kerr/critical_impact",
+  result.info = {.id = "kerr/critical",
                  .family = "kerr",
                  .claim = "The critical impact parameters are those of the circular photon orbits.",
                  .physics = "b = L/E at the double root of R(r)",
@@ -117,10 +117,12 @@ CaseResult critical(Sampler& sampler) {
   for (const double a : {0.0, 0.3, 0.7, 0.9, 0.998, 1.0}) {
     const double prograde_radius = 2.0 * (1.0 + std::cos(2.0 / 3.0 * std::acos(-a)));
     const double retrograde_radius = 2.0 * (1.0 + std::cos(2.0 / 3.0 * std::acos(a)));
-    for (const auto& [name, b] : {std::pair{"prograde", 3.0 * std::sqrt(prograde_radius) - a},
-                                  std::pair{"retrograde", -3.0 * std::sqrt(retrograde_radius) - a}}) {
-      Row row = sampler.row(std::string(name) + " a = " + std::to_string(a) + " M", "kerr", "kerr-schild", "dop853", b,
-                            1e-10);
+    for (const auto& [name, value] :
+         {std::pair{"prograde: b_c", 3.0 * std::sqrt(prograde_radius) - a},
+          std::pair{"retrograde: b_c", -3.0 * std::sqrt(retrograde_radius) - a},
+          std::pair{"prograde: r_ph", prograde_radius}, std::pair{"retrograde: r_ph", retrograde_radius}}) {
+      Row row = sampler.row("a = " + std::to_string(a) + ", " + name + " by bisection on rays", "kerr", "kerr-schild",
+                            "dop853", value, 1e-10);
       row.parameters = {{"a/M", a, "1"}};
       row.unit = "M";
       result.rows.push_back(std::move(row));
@@ -211,7 +213,7 @@ SuiteResult passing_suite() {
   suite.cases = {conformance(sampler), deflection(sampler), shadow(sampler), critical(sampler)};
   suite.sweeps = {sample_sweep("kerr", "kerr-schild"), sample_sweep("schwarzschild", "kerr-schild")};
   suite.faults = {caught_fault("half-mass", "the mass is half of what it says", "schwarzschild/deflection"),
-                  caught_fault("kerr-frame-dragging-sign", "g_tphi has the wrong sign", "kerr/critical_impact")};
+                  caught_fault("kerr-frame-dragging-sign", "g_tphi has the wrong sign", "kerr/critical")};
   return suite;
 }
 

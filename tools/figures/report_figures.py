@@ -16,19 +16,22 @@ import traceback
 import h5py
 
 from figure_kit import STYLE, Report, plt
-from spacetime_figures import ellis_deflection, kerr_critical, kerr_shadow, schwarzschild_deflection
+from spacetime_figures import (ellis_deflection, kerr_critical, kerr_deflection, kerr_shadow, projection,
+                               schwarzschild_deflection)
 from sweep_figures import convergence, error_over_tolerance, null_drift, tolerance_proportionality, work_precision
 
 FIGURES = {
     "error-over-tolerance": error_over_tolerance,
     "schwarzschild-deflection": schwarzschild_deflection,
     "ellis-deflection": ellis_deflection,
+    "kerr-deflection": kerr_deflection,
     "kerr-shadow-edge": kerr_shadow,
     "kerr-critical": kerr_critical,
     "work-precision": work_precision,
     "convergence": convergence,
     "tolerance": tolerance_proportionality,
     "null-drift": null_drift,
+    "projection": projection,
 }
 
 

@@ -169,39 +169,117 @@ def kerr_shadow(report):
         "inclinations i. Differences are far below the width of a line: see the rows of kerr/shadow_edge.")
 
 
-def kerr_critical(report):
-    names = ("kerr/critical_impact", "kerr/critical_impact_parameters", "kerr/critical_parameters", "kerr/photon_orbits")
-    case = next((one for one in map(report.case, names) if one is not None and parameter(one, "a", "spin") is not None),
-                None)
-    if case is None:
+def kerr_deflection(report):
+    """Equatorial light on either side of a spinning hole: one curve for each spin and side."""
+    case = report.case("kerr/deflection")
+    ratio, spin, b = (None if case is None else parameter(case, name) for name in ("b_over_b_c", "a", "b"))
+    if ratio is None or spin is None or b is None:
         return None, "", ""
-    spin, labels = parameter(case, "a", "spin"), text(case["label"])
     value, reference, error, tolerance = (case[name][()] for name in ("value", "reference", "error", "tolerance"))
-    good = np.isfinite(spin) & np.isfinite(value) & np.isfinite(error)
+    good = np.isfinite(value) & np.isfinite(error) & (ratio > 1)
+    if not good.any():
+        return None, "", ""
+    figure, (above, below) = plt.subplots(2, 1, figsize=(7.2, 6.8), sharex=True, height_ratios=(1, 1))
+    log_log(above)
+    log_log(below)
+    spins = sorted(set(spin[good]))
+    tightest = {place: tolerance[good & (ratio == place[0]) & (spin == place[1]) & (b == place[2])].min()
+                for place in zip(ratio[good], spin[good], b[good])}
+    held = np.array([good[k] and tolerance[k] <= tightest[ratio[k], spin[k], b[k]] for k in range(len(b))])
+    for a in spins:
+        for side, dashes, marker in ((1, "-", "o"), (-1, "--", "s")):
+            chosen = held & (spin == a) & (np.sign(b) == side)
+            if not chosen.any():
+                continue
+            colour = SERIES[spins.index(a) % len(SERIES)]
+            excess = ratio[chosen] - 1
+            label = f"a = {a:g} M, {'with' if side > 0 else 'against'} the spin" if a else "a = 0"
+            above.plot(*worst_at(excess, np.abs(reference[chosen])), color=colour, linestyle=dashes, linewidth=1.1)
+            above.plot(*worst_at(excess, np.abs(value[chosen])), color=colour, marker=marker, linestyle="none",
+                       markersize=5, markerfacecolor=colour if side > 0 else "white", label=label)
+            below.plot(*worst_at(excess, np.maximum(error[chosen], ROUND_OFF)), color=colour, marker=marker,
+                       markersize=5, markerfacecolor=colour if side > 0 else "white", linestyle=dashes, linewidth=1.0)
+    places, limits = worst_at(ratio[held] - 1, tolerance[held])
+    below.plot(places, limits, color=BLACK, linewidth=1.1, linestyle=(0, (1, 1.5)), label="largest tolerance")
+    units = unit_suffix(case["value"].attrs["units"])
+    above.set_ylabel("deflection |α|" + units)
+    below.set_ylabel("error of α" + units)
+    below.set_xlabel("$b/b_c-1$,   $b_c$ of each spin and side")
+    below.set_ylim(*tight_decades(np.concatenate([np.maximum(error[held], ROUND_OFF), limits])))
+    above.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    below.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    return figure, "Deflection in the equator of a Kerr hole", (
+        "Above: traced (markers) and exact (lines). Below: the largest error at the tightest tolerance that is graded at "
+        "each point. Differences below round-off stand at 1.1e-16.")
+
+
+def kerr_critical(report):
+    case = report.case("kerr/critical")
+    spin = None if case is None else parameter(case, "a")
+    if spin is None:
+        return None, "", ""
+    labels, gap = text(case["label"]), parameter(case, "gap")
+    value, reference, error, tolerance = (case[name][()] for name in ("value", "reference", "error", "tolerance"))
+    # Rows with a gap are measured outside the orbit, and say so.
+    good = np.isfinite(value) & np.isfinite(error) & (np.isnan(gap) if gap is not None else True)
     if not good.any():
         return None, "", ""
     spins = sorted(set(spin[good]))
     place = np.array([spins.index(a) if a in spins else -1 for a in spin], dtype=float)
-    backward = np.array(["retro" in label for label in labels]) | (reference < 0)
-    figure, (above, below) = plt.subplots(2, 1, figsize=(6.4, 5.8), sharex=True, height_ratios=(3, 2))
+    retrograde = np.array(["retrograde" in label for label in labels])
+    radius = np.array(["r_ph" in label for label in labels])
+    figure, (above, below) = plt.subplots(2, 1, figsize=(7.6, 6.0), sharex=True, height_ratios=(3, 2))
     below.set_yscale("log")
-    for name, colour, marker, shift, chosen in (("prograde", BLUE, "o", -0.08, good & ~backward),
-                                                ("retrograde", VERMILION, "s", 0.08, good & backward)):
-        if not chosen.any():
-            continue
-        x = place[chosen] + shift
-        above.plot(x, np.abs(reference[chosen]), marker="_", markersize=17, color=BLACK, linestyle="none", zorder=2)
-        above.plot(x, np.abs(value[chosen]), marker=marker, color=colour, linestyle="none", label=name, zorder=3)
-        below.plot(x, np.maximum(error[chosen], ROUND_OFF), marker=marker, color=colour, linestyle="none", zorder=3)
-        below.plot(x, tolerance[chosen], marker="_", markersize=17, color=BLACK, linestyle="none", zorder=2)
-    units = case["value"].attrs["units"]
-    above.set_ylabel("critical impact parameter" + (unit_suffix(units) or " / M"))
-    below.set_ylabel("error")
+    bar = {"marker": "_", "markersize": 17, "color": BLACK, "linestyle": "none", "zorder": 2}
+    for side, colour, marker, shift in ((False, BLUE, "o", -0.1), (True, VERMILION, "s", 0.1)):
+        for is_radius, face in ((False, colour), (True, "white")):
+            chosen = good & (retrograde == side) & (radius == is_radius)
+            if not chosen.any():
+                continue
+            look = {"marker": marker, "color": colour, "markerfacecolor": face, "linestyle": "none", "zorder": 3}
+            label = ("photon orbit" if is_radius else "critical b") + (", retrograde" if side else ", prograde")
+            above.plot(place[chosen] + shift, np.abs(reference[chosen]), **bar)
+            above.plot(place[chosen] + shift, np.abs(value[chosen]), label=label, **look)
+            below.plot(place[chosen] + shift, np.maximum(error[chosen], ROUND_OFF), **look)
+            below.plot(place[chosen] + shift, tolerance[chosen], **bar)
+    units = unit_suffix(case["value"].attrs["units"])
+    above.set_ylabel("radius or |b|" + units)
+    below.set_ylabel("error" + units)
     below.set_xlabel("spin a / M")
     below.set_xticks(range(len(spins)), [f"{a:g}" for a in spins])
     below.set_xlim(-0.5, len(spins) - 0.5)
     below.set_ylim(*tight_decades(np.maximum(error[good], ROUND_OFF), high=max(tolerance[good])))
     decades(below.yaxis)
-    above.legend()
-    return figure, "Critical rays of a Kerr hole", (
-        "Measured (markers) and exact (bars) at each spin, magnitudes; below, the errors with their tolerances (bars).")
+    above.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    return figure, "Critical light around a Kerr hole", (
+        "Radii of the circular photon orbits and critical impact parameters, measured (markers) and exact (bars) at each "
+        "spin; below, the errors with their tolerances (bars). Differences below round-off stand at 1.1e-16.")
+
+
+def projection(report):
+    """Null residual with and without projection, from the rows of the case that claims it."""
+    case = report.case("numerical/projection-residual")
+    without = None if case is None else parameter(case, "residual_without_projection")
+    if without is None:
+        return None, "", ""
+    value, tolerance, methods = case["value"][()], case["tolerance"][()], text(case["method"])
+    rows = [k for k in np.flatnonzero(np.isfinite(without) & np.isfinite(value))]
+    if not rows:
+        return None, "", ""
+    figure, axes = plt.subplots(figsize=(7.2, 1.3 + 0.36 * len(rows)))
+    axes.set_xscale("log")
+    for position, k in enumerate(rows):
+        shown = max(value[k], 1e-17)
+        colour = look_of(methods[k])["color"]
+        axes.plot([shown, without[k]], [position, position], color=colour, linewidth=1.2, alpha=0.5, zorder=2)
+        axes.plot([without[k]], [position], marker="o", color=colour, markerfacecolor="white", linestyle="none")
+        axes.plot([shown], [position], marker="o", color=colour, linestyle="none", zorder=3)
+        axes.plot([tolerance[k]] * 2, [position - 0.4, position + 0.4], color=BLACK, linewidth=1.4)
+    axes.set_yticks(range(len(rows)), [methods[k] for k in rows])
+    axes.set_ylim(len(rows) - 0.4, -0.6)
+    axes.grid(axis="y", visible=False)
+    axes.set_xlabel("largest null residual")
+    decades(axes.xaxis)
+    return figure, "Null drift with and without projection", (
+        "Largest null residual over a bundle of rays: open circles without projection, filled ones with it, black bars "
+        "the largest that passes. Exact zeros stand at 1e-17.")

@@ -49,7 +49,8 @@ std::vector<Row> residual_rows(const Lab& lab) {
       method.projection = projection;
       const Traced traced = trace_all(lab, bundle, method);
       Row row = make_row(fmt::format("null residual with {}", method_label(method)), *bundle.chart, method,
-                         {{"rays", static_cast<double>(bundle.starts.size()), "1"}});
+                         {{"rays", static_cast<double>(bundle.starts.size()), "1"},
+                          {"residual_without_projection", unprojected, "1"}});
       row.note = fmt::format("{:.2g} without projection", unprojected);
       row.evaluations = traced.evaluations;
       grade_bound(row, traced.null_residual, {1e-14, "the figure that the project promises"});
