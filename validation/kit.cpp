@@ -36,6 +36,19 @@ TraceSettings trace_settings(const MethodAt& method, double length_unit) {
   return settings;
 }
 
+CaseInfo closed_form_case(std::string_view family, std::string_view name, std::string claim, std::string physics,
+                          std::string truth, std::string cites) {
+  return {.id = fmt::format("{}/{}", family, name),
+          .family = std::string(family),
+          .claim = std::move(claim),
+          .physics = std::move(physics),
+          .truth = std::move(truth),
+          .rank = TruthRank::closed_form,
+          .grades_metric = true,
+          .cites = std::move(cites),
+          .source = fmt::format("validation/families/{}.cpp", family)};
+}
+
 Row make_row(std::string label, const Spacetime& chart, const MethodAt& method, std::vector<RowParameter> parameters) {
   Row row;
   row.label = std::move(label);

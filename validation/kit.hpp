@@ -39,6 +39,10 @@ struct MethodAt {
 /// Trace settings for a method, everything else at its default.
 [[nodiscard]] TraceSettings trace_settings(const MethodAt& method, double length_unit = 1.0);
 
+/// The description of a metric's case whose truth is a closed form: id "family/name", defined in families/<family>.cpp.
+[[nodiscard]] CaseInfo closed_form_case(std::string_view family, std::string_view name, std::string claim,
+                                        std::string physics, std::string truth, std::string cites);
+
 /// A row with its inputs named; value, truth and tolerance are set by `grade`.
 [[nodiscard]] Row make_row(std::string label, const Spacetime& chart, const MethodAt& method,
                            std::vector<RowParameter> parameters);

@@ -268,44 +268,37 @@ std::vector<Row> chart_rows(const Lab& lab) {
   return rows;
 }
 
-CaseInfo describe(std::string id, std::string claim, std::string physics, std::string truth, std::string cites) {
-  return {.id = "ellis/" + std::move(id),
-          .family = "ellis",
-          .claim = std::move(claim),
-          .physics = std::move(physics),
-          .truth = std::move(truth),
-          .rank = TruthRank::closed_form,
-          .grades_metric = true,
-          .cites = std::move(cites),
-          .source = "validation/families/ellis.cpp"};
-}
-
 }  // namespace
 
 std::vector<Case> ellis_cases() {
   return {
-      {describe("deflection", "A ray with impact parameter b > b0 is deflected towards the wormhole by 2 K(b0/b) - pi.",
-                "alpha = 2 K(k = b0/b) - pi > 0. Traced from l0 = max(50 b0, 2b) and back; the angles beyond both ends "
-                "are added in closed form.",
-                "the complete elliptic integral of the first kind at the stored b", "NakajimaAsada2012 Perlick2004"),
+      {closed_form_case(
+           "ellis", "deflection",
+           "A ray with impact parameter b > b0 is deflected towards the wormhole by 2 K(b0/b) - pi.",
+           "alpha = 2 K(k = b0/b) - pi > 0. Traced from l0 = max(50 b0, 2b) and back; the angles beyond both ends "
+           "are added in closed form.",
+           "the complete elliptic integral of the first kind at the stored b", "NakajimaAsada2012 Perlick2004"),
        true, deflection_rows},
-      {describe(
-           "transit", "A ray with b < b0 goes through the throat and sweeps 2 (b/b0) K(b/b0).",
+      {closed_form_case(
+           "ellis", "transit", "A ray with b < b0 goes through the throat and sweeps 2 (b/b0) K(b/b0).",
            "Delta phi = 2 (b/b0) K(k = b/b0) from l = -infinity to +infinity, traced from 50 b0 to -50 b0; theta and "
            "phi continue unchanged through the throat.",
            "the complete elliptic integral of the first kind at the stored b", "ChetouaniClement1984"),
        true, transit_rows},
-      {describe("throat", "The throat is an unstable photon sphere: b_c = b0, deviations grow as e^(t/b0).",
-                "b_c by bisection on the side where rays come out; the growth from a ray that starts tangentially at "
-                "l = delta and is followed for half an orbit, l = delta cosh(t/b0).",
-                "b0 and 1/b0", "ChetouaniClement1984 Perlick2004"),
+      {closed_form_case(
+           "ellis", "throat", "The throat is an unstable photon sphere: b_c = b0, deviations grow as e^(t/b0).",
+           "b_c by bisection on the side where rays come out; the growth from a ray that starts tangentially at "
+           "l = delta and is followed for half an orbit, l = delta cosh(t/b0).",
+           "b0 and 1/b0", "ChetouaniClement1984 Perlick2004"),
        true, throat_rows},
-      {describe("constants", "E and the angular momentum are the same on both sides of the throat.",
-                "Killing constants before and after an inclined ray has gone from one isotropic sheet to the other.",
-                "their own values at the start", "MorrisThorne1988"),
+      {closed_form_case(
+           "ellis", "constants", "E and the angular momentum are the same on both sides of the throat.",
+           "Killing constants before and after an inclined ray has gone from one isotropic sheet to the other.",
+           "their own values at the start", "MorrisThorne1988"),
        true, constants_rows},
-      {describe(
-           "charts", "The same ray in both charts, off the equator and over the pole, takes the exact time and angle.",
+      {closed_form_case(
+           "ellis", "charts",
+           "The same ray in both charts, off the equator and over the pole, takes the exact time and angle.",
            "The angle between first and last direction is the equatorial swept angle of the total angular momentum; "
            "elapsed t is the length of the path.",
            "incomplete elliptic integrals at the stored b and l", "ChetouaniClement1984"),

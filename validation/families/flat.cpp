@@ -123,36 +123,25 @@ std::vector<Row> aberration_rows(const Lab& lab) {
   return rows;
 }
 
-CaseInfo describe(std::string id, std::string claim, std::string physics, std::string truth) {
-  return {.id = "flat/" + std::move(id),
-          .family = "flat",
-          .claim = std::move(claim),
-          .physics = std::move(physics),
-          .truth = std::move(truth),
-          .rank = TruthRank::closed_form,
-          .grades_metric = true,
-          .cites = "MisnerThorneWheeler1973",
-          .source = "validation/families/flat.cpp"};
-}
-
 }  // namespace
 
 std::vector<Case> flat_cases() {
   return {
-      {describe("straight", "Light runs straight, to round-off, in every method.",
-                "Distance from x0 + lambda p after lambda = 12, in the Cartesian chart.", "the straight line"),
+      {closed_form_case("flat", "straight", "Light runs straight, to round-off, in every method.",
+                        "Distance from x0 + lambda p after lambda = 12, in the Cartesian chart.", "the straight line",
+                        "MisnerThorneWheeler1973"),
        true, straight_rows},
-      {describe(
-           "spherical", "The same lines in spherical coordinates, past the axis and through it.",
+      {closed_form_case(
+           "flat", "spherical", "The same lines in spherical coordinates, past the axis and through it.",
            "Transported in either chart, read in spherical angles that are continuous along the ray, and compared in "
            "space.",
-           "the straight line"),
+           "the straight line", "MisnerThorneWheeler1973"),
        true, spherical_rows},
-      {describe(
-           "aberration", "A moving observer sees light aberrated and shifted.",
+      {closed_form_case(
+           "flat", "aberration", "A moving observer sees light aberrated and shifted.",
            "cos theta' = (cos theta + beta)/(1 + beta cos theta), frequency gamma (1 + beta cos theta), for traced "
            "rays that arrive at an observer who moves towards theta = 0.",
-           "the closed forms of special relativity"),
+           "the closed forms of special relativity", "MisnerThorneWheeler1973"),
        true, aberration_rows}};
 }
 

@@ -190,38 +190,27 @@ std::vector<Row> circle_rows(const Lab& lab) {
   return rows;
 }
 
-CaseInfo describe(std::string id, std::string claim, std::string physics, std::string truth, std::string cites) {
-  return {.id = "media/" + std::move(id),
-          .family = "media",
-          .claim = std::move(claim),
-          .physics = std::move(physics),
-          .truth = std::move(truth),
-          .rank = TruthRank::closed_form,
-          .grades_metric = true,
-          .cites = std::move(cites),
-          .source = "validation/families/media.cpp"};
-}
-
 }  // namespace
 
 std::vector<Case> media_cases() {
   return {
-      {describe("uniform", "In a uniform medium light runs straight and t is n times the length.",
-                "The end point after an optical path of 30 in n = 1.5.", "x0 + (t/n) d", "BornWolf1999"),
+      {closed_form_case("media", "uniform", "In a uniform medium light runs straight and t is n times the length.",
+                        "The end point after an optical path of 30 in n = 1.5.", "x0 + (t/n) d", "BornWolf1999"),
        true, uniform_rows},
-      {describe(
-           "luneburg", "A Luneburg lens brings parallel light to a point on its rim, all paths equal.",
+      {closed_form_case(
+           "media", "luneburg", "A Luneburg lens brings parallel light to a point on its rim, all paths equal.",
            "n^2 = 2 - r^2: x = x0 cos(lambda) + p0 sin(lambda). The distance from (R, 0, 0) a quarter period after the "
            "rim, and the optical path pi/2 + sqrt(1 - y^2) from there.",
            "the closed form of the ray", "Luneburg1964"),
        true, luneburg_rows},
-      {describe("fisheye-image", "Maxwell's fish-eye images every point at its antipode after an optical path of pi R.",
-                "n = 2/(1 + r^2): x0 -> -x0/|x0|^2 after pi, back to x0 after 2 pi.", "the closed form of the image",
-                "Maxwell1854 BornWolf1999"),
+      {closed_form_case("media", "fisheye-image",
+                        "Maxwell's fish-eye images every point at its antipode after an optical path of pi R.",
+                        "n = 2/(1 + r^2): x0 -> -x0/|x0|^2 after pi, back to x0 after 2 pi.",
+                        "the closed form of the image", "Maxwell1854 BornWolf1999"),
        true, image_rows},
-      {describe("fisheye-circle", "Rays of Maxwell's fish-eye are circles.",
-                "Largest distance of the traced ray from its exact circle over one turn.",
-                "centre and radius from the great circle of the 3-sphere", "Maxwell1854 BornWolf1999"),
+      {closed_form_case("media", "fisheye-circle", "Rays of Maxwell's fish-eye are circles.",
+                        "Largest distance of the traced ray from its exact circle over one turn.",
+                        "centre and radius from the great circle of the 3-sphere", "Maxwell1854 BornWolf1999"),
        true, circle_rows},
   };
 }

@@ -19,7 +19,6 @@ namespace exact = schwarzschild_exact;
 
 constexpr double mass = 1.0;
 constexpr double far = std::numeric_limits<double>::infinity();
-constexpr const char* source_file = "validation/families/schwarzschild.cpp";
 
 const double critical_b = exact::critical_impact_parameter(mass).value;
 
@@ -407,62 +406,54 @@ std::vector<Row> chart_rows(const Lab& lab) {
   return rows;
 }
 
-CaseInfo describe(std::string id, std::string claim, std::string physics, std::string truth, std::string cites) {
-  return {.id = "schwarzschild/" + std::move(id),
-          .family = "schwarzschild",
-          .claim = std::move(claim),
-          .physics = std::move(physics),
-          .truth = std::move(truth),
-          .rank = TruthRank::closed_form,
-          .grades_metric = true,
-          .cites = std::move(cites),
-          .source = source_file};
-}
-
 }  // namespace
 
 std::vector<Case> schwarzschild_cases() {
   return {
-      {describe(
-           "deflection", "A ray with impact parameter b > b_c is deflected by Darwin's elliptic integral.",
+      {closed_form_case(
+           "schwarzschild", "deflection",
+           "A ray with impact parameter b > b_c is deflected by Darwin's elliptic integral.",
            "alpha = 4 sqrt(P/Q) [K(m) - F(zeta|m)] - pi. The ray is traced from r0 = max(50 M, 2b) and back to r0; "
            "the angles beyond both ends are added in closed form, at the radii where the ray really is.",
            "Darwin's closed form at the stored b = L/E, with its round-off bound", "Darwin1959"),
        true, deflection_rows},
-      {describe("capture", "A ray with b < b_c falls in, sweeping the angle of the cubic with one real root.",
-                "phi = int du / sqrt(1/b^2 - u^2 + 2 M u^3) from 50 M to the stop near the horizon.",
-                "Carlson's R_F at the stored b and radii", "Darwin1959"),
+      {closed_form_case("schwarzschild", "capture",
+                        "A ray with b < b_c falls in, sweeping the angle of the cubic with one real root.",
+                        "phi = int du / sqrt(1/b^2 - u^2 + 2 M u^3) from 50 M to the stop near the horizon.",
+                        "Carlson's R_F at the stored b and radii", "Darwin1959"),
        true, capture_rows},
-      {describe("weak-field", "Far from the hole the deflection follows the series in M/b.",
-                "alpha = 4 (M/b) + (15 pi/4) (M/b)^2 + (128/3) (M/b)^3 + (3465 pi/64) (M/b)^4 + ...",
-                "the series of Iyer and Petters, with a bound on what it leaves out", "IyerPetters2007"),
+      {closed_form_case("schwarzschild", "weak-field", "Far from the hole the deflection follows the series in M/b.",
+                        "alpha = 4 (M/b) + (15 pi/4) (M/b)^2 + (128/3) (M/b)^3 + (3465 pi/64) (M/b)^4 + ...",
+                        "the series of Iyer and Petters, with a bound on what it leaves out", "IyerPetters2007"),
        true, weak_field_rows},
-      {describe("strong-field", "Near b_c the deflection diverges as -ln(b/b_c - 1) + bbar.",
-                "bbar = ln[216 (7 - 4 sqrt 3)] - pi = -0.40023...; measured as alpha + ln(b/b_c - 1).",
-                "Bozza's strong deflection limit", "Bozza2002"),
+      {closed_form_case("schwarzschild", "strong-field", "Near b_c the deflection diverges as -ln(b/b_c - 1) + bbar.",
+                        "bbar = ln[216 (7 - 4 sqrt 3)] - pi = -0.40023...; measured as alpha + ln(b/b_c - 1).",
+                        "Bozza's strong deflection limit", "Bozza2002"),
        true, strong_field_rows},
-      {describe(
-           "photon-sphere", "Light circles the hole at r = 3 M.",
+      {closed_form_case(
+           "schwarzschild", "photon-sphere", "Light circles the hole at r = 3 M.",
            "From the metric: where the radial force on tangential light changes sign. From rays: bisection on whether "
            "light that starts tangentially falls or escapes.",
            "r_ph = 3 M", "Synge1966"),
        true, photon_sphere_rows},
-      {describe("critical-b", "Rays fall in below b_c = 3 sqrt 3 M and come back above it.",
-                "Bisection on the fate of traced rays, to 1e-14 in b.", "b_c = 3 sqrt 3 M", "Synge1966"),
+      {closed_form_case("schwarzschild", "critical-b", "Rays fall in below b_c = 3 sqrt 3 M and come back above it.",
+                        "Bisection on the fate of traced rays, to 1e-14 in b.", "b_c = 3 sqrt 3 M", "Synge1966"),
        true, critical_b_rows},
-      {describe(
-           "lyapunov", "A displacement from the photon orbit grows by e^pi every half orbit.",
+      {closed_form_case(
+           "schwarzschild", "lyapunov", "A displacement from the photon orbit grows by e^pi every half orbit.",
            "Rays that start tangentially at 3 M +- delta; their separation after half an orbit is 2 delta cosh(gamma).",
            "gamma = pi", "Johnson2020"),
        true, lyapunov_rows},
-      {describe("time", "Light takes Shapiro's time between two radii.",
-                "t = int dr / [(1 - 2M/r) sqrt(1 - b^2 (1 - 2M/r)/r^2)], from r0 to the periapsis and back to r0.",
-                "adaptive quadrature of the first integral in long double, with its error", "Shapiro1964"),
+      {closed_form_case(
+           "schwarzschild", "time", "Light takes Shapiro's time between two radii.",
+           "t = int dr / [(1 - 2M/r) sqrt(1 - b^2 (1 - 2M/r)/r^2)], from r0 to the periapsis and back to r0.",
+           "adaptive quadrature of the first integral in long double, with its error", "Shapiro1964"),
        true, time_rows},
-      {describe("charts", "The same ray in every chart ends in the same direction, over the pole too.",
-                "Rays off the equator, through the axis and past it; the angle between first and last direction is the "
-                "equatorial swept angle of b = sqrt(p_theta^2 + L^2/sin^2 theta)/E.",
-                "Carlson's R_F for the swept angle", "Darwin1959"),
+      {closed_form_case(
+           "schwarzschild", "charts", "The same ray in every chart ends in the same direction, over the pole too.",
+           "Rays off the equator, through the axis and past it; the angle between first and last direction is the "
+           "equatorial swept angle of b = sqrt(p_theta^2 + L^2/sin^2 theta)/E.",
+           "Carlson's R_F for the swept angle", "Darwin1959"),
        true, chart_rows},
   };
 }
