@@ -37,18 +37,18 @@ template <std::size_t R, class T, class H>
 
 /// The end of one step. On entry k[0] holds flow(y); on return k[0] to k[11] hold the stages.
 template <class T, class H, class FlowT>
-[[nodiscard]] constexpr PhaseState<T> step(FlowT&& flow, const PhaseState<T>& y, const H& h, Stages<T>& k) {
-  [&]<std::size_t... S>(std::index_sequence<S...>) { ((k[S + 1] = flow(stage<S + 1>(y, h, k))), ...); }
+[[nodiscard]] PhaseState<T> step(FlowT&& flow, const PhaseState<T>& y, const H& h, Stages<T>& k) {
+  [&]<std::size_t... S>(std::index_sequence<S...>) { (put_rate(flow, stage<S + 1>(y, h, k), k[S + 1]), ...); }
   (std::make_index_sequence<stages - 1>{});
   return stage<stages>(y, h, k);
 }
 
 /// The three further stages of the dense output. On entry k[0] to k[12] are known, k[12] being the flow at the end.
 template <class T, class H, class FlowT>
-constexpr void dense_stages_of(FlowT&& flow, const PhaseState<T>& y, const H& h, Stages<T>& k) {
-  k[13] = flow(stage<13>(y, h, k));
-  k[14] = flow(stage<14>(y, h, k));
-  k[15] = flow(stage<15>(y, h, k));
+void dense_stages_of(FlowT&& flow, const PhaseState<T>& y, const H& h, Stages<T>& k) {
+  put_rate(flow, stage<13>(y, h, k), k[13]);
+  put_rate(flow, stage<14>(y, h, k), k[14]);
+  put_rate(flow, stage<15>(y, h, k), k[15]);
 }
 
 }  // namespace dop853

@@ -13,7 +13,8 @@ StepOutcome ExplicitRkStepper::step(const PhaseState<double>& y, double h) {
     end_step(out.y);
   }
   if (rk_.embedded) {
-    PhaseState<double> error = weighted_rate(rk_.error, rk_.stages, k_);
+    PhaseState<double> error =
+        with_stages(rk_.stages, [&](auto stages) { return weighted_rate<stages>(rk_.error, k_); });
     for (double& component : error.c) component *= h;
     out.error_norm = error_norm(scale_, y, out.y, error);
   }
@@ -24,7 +25,8 @@ PhaseState<double> ExplicitRkStepper::interpolate(double theta) {
   PhaseState<double> y = hermite(theta);
   if (rk_.own_dense) {
     const double rest = 1.0 - theta;
-    y = advanced(y, step_size() * (theta * theta * rest * rest), weighted_rate(rk_.dense, rk_.stages, k_));
+    y = advanced(y, step_size() * (theta * theta * rest * rest),
+                 weighted_rate<RkCoefficients::max_stages>(rk_.dense, k_));
   }
   return y;
 }

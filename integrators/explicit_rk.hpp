@@ -1,6 +1,9 @@
 // One step of any explicit Runge-Kutta method whose tableau is given as data, over any scalar.
 #pragma once
 
+#include <type_traits>
+#include <utility>
+
 #include "integrators/butcher_tableau.hpp"
 #include "integrators/flow_stepper.hpp"
 #include "metrics/tensor.hpp"
@@ -43,36 +46,64 @@ struct RkCoefficients {
 template <class T>
 using RkStages = std::array<PhaseState<T>, RkCoefficients::max_stages>;
 
-/// sum_i weight_i k_i over the stages; zero weights cost nothing.
-template <class T>
-[[nodiscard]] constexpr PhaseState<T> weighted_rate(const RkCoefficients::Row& weight, std::size_t stages,
-                                                    const RkStages<T>& k) {
-  PhaseState<T> sum{};
-  for (std::size_t j = 0; j < stages; ++j) {
-    if (weight[j] == 0.0) continue;
-    for (std::size_t i = 0; i < 8; ++i) sum[i] = sum[i] + weight[j] * k[j][i];
+/// sum_j weight_j k_j over the first N stages.
+template <std::size_t N, class T>
+[[nodiscard, gnu::always_inline]] constexpr PhaseState<T> weighted_rate(const RkCoefficients::Row& weight,
+                                                                        const RkStages<T>& k) {
+  PhaseState<T> sum;
+  [&]<std::size_t... J>(std::index_sequence<J...>) {
+    for (std::size_t i = 0; i < 8; ++i) sum[i] = ((weight[0] * k[0][i]) + ... + (weight[J + 1] * k[J + 1][i]));
   }
+  (std::make_index_sequence<N - 1>{});
   return sum;
 }
 
 /// y + h rate. H is double, or a Pack with a step size for each lane.
 template <class T, class H>
-[[nodiscard]] constexpr PhaseState<T> advanced(const PhaseState<T>& y, const H& h, const PhaseState<T>& rate) {
+[[nodiscard, gnu::always_inline]] constexpr PhaseState<T> advanced(const PhaseState<T>& y, const H& h,
+                                                                   const PhaseState<T>& rate) {
   PhaseState<T> out;
   for (std::size_t i = 0; i < 8; ++i) out[i] = y[i] + h * rate[i];
   return out;
 }
 
-/// The end of one step. On entry k[0] holds flow(y); on return k holds all stages.
-template <class T, class H, class FlowT>
-[[nodiscard]] constexpr PhaseState<T> explicit_rk_step(const RkCoefficients& rk, FlowT&& flow, const PhaseState<T>& y,
-                                                       const H& h, RkStages<T>& k) {
+/// The end of one step of a method with N stages. On entry k[0] holds flow(y); on return k holds all stages.
+template <std::size_t N, class T, class H, class FlowT>
+[[nodiscard]] PhaseState<T> explicit_rk_step(const RkCoefficients& rk, FlowT&& flow, const PhaseState<T>& y, const H& h,
+                                             RkStages<T>& k) {
   PhaseState<T> stage = y;
-  for (std::size_t s = 1; s < rk.stages; ++s) {
-    stage = advanced(y, h, weighted_rate(rk.a[s], s, k));
-    k[s] = flow(stage);
+  [&]<std::size_t... S>(std::index_sequence<S...>) {
+    ((stage = advanced(y, h, weighted_rate<S + 1>(rk.a[S + 1], k)), put_rate(flow, stage, k[S + 1])), ...);
   }
-  return rk.first_same_as_last ? stage : advanced(y, h, weighted_rate(rk.b, rk.stages, k));
+  (std::make_index_sequence<N - 1>{});
+  return rk.first_same_as_last ? stage : advanced(y, h, weighted_rate<N>(rk.b, k));
+}
+
+/// Calls f with the number of stages as a constant, for loops that the compiler can lay out flat.
+template <class F>
+constexpr auto with_stages(std::size_t stages, const F& f) {
+  switch (stages) {
+    case 1:
+      return f(std::integral_constant<std::size_t, 1>{});
+    case 2:
+      return f(std::integral_constant<std::size_t, 2>{});
+    case 3:
+      return f(std::integral_constant<std::size_t, 3>{});
+    case 4:
+      return f(std::integral_constant<std::size_t, 4>{});
+    case 5:
+      return f(std::integral_constant<std::size_t, 5>{});
+    case 6:
+      return f(std::integral_constant<std::size_t, 6>{});
+    default:
+      return f(std::integral_constant<std::size_t, 7>{});
+  }
+}
+
+template <class T, class H, class FlowT>
+[[nodiscard]] PhaseState<T> explicit_rk_step(const RkCoefficients& rk, FlowT&& flow, const PhaseState<T>& y, const H& h,
+                                             RkStages<T>& k) {
+  return with_stages(rk.stages, [&](auto stages) { return explicit_rk_step<stages>(rk, flow, y, h, k); });
 }
 
 /// An explicit Runge-Kutta method behind the stepper interface.

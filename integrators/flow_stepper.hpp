@@ -2,6 +2,7 @@
 // the cubic Hermite interpolant through them.
 #pragma once
 
+#include <new>
 #include <utility>
 
 #include "integrators/stepper.hpp"
@@ -16,6 +17,13 @@ namespace xpr {
 /// max_i |error_i| / (absolute_i + relative_i max(|y0_i|, |y1_i|)); NaN where any component is.
 [[nodiscard]] double error_norm(const ErrorScale& scale, const PhaseState<double>& y0, const PhaseState<double>& y1,
                                 const PhaseState<double>& error);
+
+/// Makes `where` the flow at y without a copy: a copy would read at once, in wide words, what the flow has just written
+/// number by number, and processors stall on that (15 % of a Dormand-Prince step).
+template <class FlowT, class T>
+void put_rate(FlowT&& flow, const PhaseState<T>& y, PhaseState<T>& where) {
+  ::new (static_cast<void*>(&where)) PhaseState<T>(flow(y));
+}
 
 /// Base of the steppers. A derived step() calls begin_step, then end_step.
 class FlowStepper : public Stepper {
