@@ -108,26 +108,27 @@ Bundle fisheye_orbits(const Lab& lab, int rays, FisheyePath path) {
   return bundle;
 }
 
-Bundle kerr_rays(const Lab& lab, int rays) {
+Bundle kerr_rays(const Lab& lab, int rays, KerrHole hole) {
   Bundle bundle;
-  const NamedValue spin{"a", 0.9};
-  bundle.chart = lab.spacetime("kerr", "kerr-schild", {&spin, 1});
-  const std::unique_ptr<Spacetime> hub = lab.spacetime("kerr", "boyer-lindquist", {&spin, 1});
+  const std::array<NamedValue, 2> values = {NamedValue{"M", hole.mass}, NamedValue{"a", hole.spin}};
+  bundle.chart = lab.spacetime("kerr", "kerr-schild", values);
+  bundle.length_unit = hole.mass;
+  const std::unique_ptr<Spacetime> classical = lab.spacetime("kerr", "boyer-lindquist", values);
   SeededNumbers seeded(0x1963);  // the year of Kerr's solution
   for (int i = 0; i < rays; ++i) {
     const double theta = seeded.uniform(0.9, 2.2);
-    const double total = seeded.uniform(6.3, 7.5);   // |L| / E, above the critical one of every inclination used
-    const double along = seeded.uniform(-0.3, 0.9);  // L_z / |L|
+    const double total = hole.mass * seeded.uniform(6.3, 7.5);  // |L| / E, above the critical one of these rays
+    const double along = seeded.uniform(-0.3, 0.9);             // L_z / |L|
     const double L = total * along * sin(theta);
     const double p_theta = total * std::sqrt(1.0 - along * along) * (i % 2 == 0 ? 1.0 : -1.0);
-    bundle.starts.push_back(general_light(*hub, *bundle.chart, 15.0, theta, L, p_theta).state);
-    bundle.spans.push_back(30.0);
+    bundle.starts.push_back(general_light(*classical, *bundle.chart, 15.0 * hole.mass, theta, L, p_theta).state);
+    bundle.spans.push_back(30.0 * hole.mass);
   }
   return bundle;
 }
 
-Bundle kerr_scattering(const Lab& lab, int rays) {
-  Bundle bundle = kerr_rays(lab, rays);
+Bundle kerr_scattering(const Lab& lab, int rays, KerrHole hole) {
+  Bundle bundle = kerr_rays(lab, rays, hole);
   // The real steppers, never planted ones, and flows of the Lab's spacetime: grades steppers only.
   const Flow flow = bundle.flow();
   std::vector<PhaseState<double>> other;

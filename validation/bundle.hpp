@@ -49,14 +49,20 @@ enum class FisheyePath {
 /// projection, run through uniformly in t; it closes after the affine length 2 pi / L^3 (L = |x cross p|, E = 1).
 [[nodiscard]] Bundle fisheye_orbits(const Lab& lab, int rays, FisheyePath path);
 
-/// Light that passes a Kerr hole of spin 0.9 M off the equator, from 15 M inwards, over the affine length 30 M, in the
-/// `kerr-schild` chart; without the truth.
-[[nodiscard]] Bundle kerr_rays(const Lab& lab, int rays);
+/// The hole that bundles of light pass.
+struct KerrHole {
+  double mass = 1.0;
+  double spin = 0.9;
+};
+
+/// Light that passes a Kerr hole off the equator, from 15 M inwards, over the affine length 30 M, in the `kerr-schild`
+/// chart; without the truth.
+[[nodiscard]] Bundle kerr_rays(const Lab& lab, int rays, KerrHole hole = {});
 
 /// The same with the truth: dop853 in 600 equal steps, far finer than what is graded. truth_error is its distance to
 /// Gauss-Legendre's order 6 in 1500 steps: two methods that share nothing but the flow. Self-convergence, which grades
 /// steppers only.
-[[nodiscard]] Bundle kerr_scattering(const Lab& lab, int rays);
+[[nodiscard]] Bundle kerr_scattering(const Lab& lab, int rays, KerrHole hole = {});
 
 /// A stepper's walk in equal steps.
 struct Walk {
