@@ -123,7 +123,7 @@ class StaleStage final : public FlowStepper {
     StepOutcome out;
     out.y = explicit_rk_step(rk_, counted_flow(), y, h, k_);
     end_step(out.y);
-    PhaseState<double> error = weighted_rate(rk_.error, rk_.stages, k_);
+    PhaseState<double> error = weighted_rate<RkCoefficients::max_stages>(rk_.error, k_);
     for (double& component : error.c) component *= h;
     out.error_norm = error_norm(scale_, y, out.y, error);
     return out;
