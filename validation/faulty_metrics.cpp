@@ -1,7 +1,0 @@
-#include "validation/families.hpp"
-
-namespace xpr {
-
-std::vector<Fault> metric_faults() { return {}; }
-
-}  // namespace xpr
