@@ -183,12 +183,12 @@ std::string diagnose(const Subject& subject, const Spacetime& sibling) {
   for (const ComponentGap& gap : gaps) {
     if (differs(gap) && &gap != &*loudest) others += (others.empty() ? "" : ", ") + gap.name;
   }
-  return fmt::format("{} {} (chart {} implies the other value){}", loudest->name,
+  return fmt::format("{} {}; expected is what chart {} implies{}", loudest->name,
                      describe_ratio(subject.chart.card(), loudest->seen), sibling.card().chart,
                      others.empty() ? "" : fmt::format("; {} differ too", others));
 }
 
-void check_same_metric(const Subject& subject, const Spacetime& sibling, std::vector<Finding>& findings) {
+Finding same_metric(const Subject& subject, const Spacetime& sibling) {
   Worst worst;
   for (const Sample& sample : subject.samples) {
     const std::optional<SymTensor4<double>> implied = implied_inverse_metric(subject, sibling, sample);
@@ -199,16 +199,32 @@ void check_same_metric(const Subject& subject, const Spacetime& sibling, std::ve
     worst.look(largest(in_frame_raised(frame_at(subject.chart, sample.x), gap)) / square(stretch_of(sibling, image)),
                sample.x);
   }
-  Finding finding =
-      finish(subject, fmt::format("same-metric:{}", sibling.card().chart),
-             fmt::format("the metric is that of chart {}, carried over as a tensor", sibling.card().chart), worst,
-             {1e-10,
-              "round-off, 2e-16 times 1/sin(theta) = 50 near the axis and a hundred operations; errors are in "
-              "units of the square of the map's stretch"});
-  if (finding.state == FindingState::failed) {
-    if (std::string words = diagnose(subject, sibling); !words.empty()) finding.message = std::move(words);
+  return finish(subject, fmt::format("same-metric:{}", sibling.card().chart),
+                fmt::format("the metric is that of chart {}, carried over as a tensor", sibling.card().chart), worst,
+                {1e-10,
+                 "round-off, 2e-16 times 1/sin(theta) = 50 near the axis and a few hundred operations; errors "
+                 "are in units of the square of the map's stretch"});
+}
+
+/// Compares with every sibling. Where this chart agrees with one and not with another, it is the other that is to be
+/// looked at; a component and a ratio are named where this chart stands alone.
+void check_same_metric(const Subject& subject, std::vector<Finding>& findings) {
+  std::vector<Finding> compared;
+  for (const Spacetime* sibling : subject.siblings) compared.push_back(same_metric(subject, *sibling));
+  const auto agreed = [](const Finding& finding) { return finding.state == FindingState::passed; };
+  const auto witness = std::find_if(compared.begin(), compared.end(), agreed);
+  for (std::size_t i = 0; i < compared.size(); ++i) {
+    if (compared[i].state != FindingState::failed) continue;
+    if (witness != compared.end()) {
+      const std::size_t agreeing = static_cast<std::size_t>(witness - compared.begin());
+      compared[i].message = fmt::format("this chart agrees with {} and not with {}: look at {} ({})",
+                                        subject.siblings[agreeing]->card().chart, subject.siblings[i]->card().chart,
+                                        subject.siblings[i]->card().chart, compared[i].message);
+    } else if (std::string words = diagnose(subject, *subject.siblings[i]); !words.empty()) {
+      compared[i].message = std::move(words);
+    }
   }
-  findings.push_back(std::move(finding));
+  std::move(compared.begin(), compared.end(), std::back_inserter(findings));
 }
 
 }  // namespace
@@ -221,8 +237,8 @@ void check_chart_maps(const Subject& subject, std::vector<Finding>& findings) {
   for (const Spacetime* sibling : subject.siblings) {
     check_there_and_back(subject, *sibling, findings);
     check_symplectic(subject, *sibling, findings);
-    check_same_metric(subject, *sibling, findings);
   }
+  check_same_metric(subject, findings);
 }
 
 }  // namespace xpr::conformance

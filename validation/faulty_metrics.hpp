@@ -45,12 +45,14 @@ struct InLowerIndices {
 /// Wrong<M, Slip> in place of M where that chart is asked for; else null.
 template <class M, class Slip>
 [[nodiscard]] std::unique_ptr<Spacetime> wrong_chart(std::string_view metric, std::string_view chart,
-                                                     std::span<const NamedValue> values) {
+                                                     [[maybe_unused]] std::span<const NamedValue> values) {
   if (metric != M::card.metric || (chart != M::card.chart && !chart.empty())) return nullptr;
   Wrong<M, Slip> module;
-  for (const NamedValue& value : values) {
-    for (const auto& parameter : M::parameters) {
-      if (parameter.name == value.name) module.*(parameter.member) = value.value;
+  if constexpr (requires { M::parameters; }) {
+    for (const NamedValue& value : values) {
+      for (const auto& parameter : M::parameters) {
+        if (parameter.name == value.name) module.*(parameter.member) = value.value;
+      }
     }
   }
   return std::make_unique<SpacetimeOf<Wrong<M, Slip>>>(std::move(module));

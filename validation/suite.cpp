@@ -210,18 +210,20 @@ SuiteResult run_suite(const Selection& selection, const SuiteOptions& options) {
 }
 
 std::vector<FaultResult> run_self_test(std::span<const Fault> planted, std::span<const Case> all, SuiteSize size,
-                                       const SuiteOptions& options) {
+                                       const SuiteOptions& options, std::span<const CaseResult> twins) {
   std::map<std::string_view, const Case*> case_of;
   for (const Case& one : all) case_of[one.info.id] = &one;
-  // Each twin runs once, before the faults that share it; both are pieces of the same run.
-  std::vector<const Case*> twins;
+  // Each twin runs once, before the faults that share it; all are pieces of the same run.
+  std::map<std::string_view, const CaseResult*> twin_of;
+  for (const CaseResult& result : twins) twin_of[result.info.id] = &result;
+  std::vector<const Case*> missing;
   std::set<std::string_view> wanted;
   for (const Fault& fault : planted) {
     const auto found = case_of.find(fault.case_id);
-    if (found != case_of.end() && wanted.insert(fault.case_id).second) twins.push_back(found->second);
+    if (found == case_of.end() || twin_of.contains(fault.case_id)) continue;
+    if (wanted.insert(fault.case_id).second) missing.push_back(found->second);
   }
-  const std::vector<CaseResult> unbroken = run_cases(twins, size, options);
-  std::map<std::string_view, const CaseResult*> twin_of;
+  const std::vector<CaseResult> unbroken = run_cases(missing, size, options);
   for (const CaseResult& result : unbroken) twin_of[result.info.id] = &result;
 
   std::vector<FaultResult> results(planted.size());

@@ -61,8 +61,10 @@ struct SuiteOptions {
 
 /// Plants each fault under its case and says whether it was caught: a row with verdict `fail` and finite error > 10 x
 /// tolerance whose unbroken twin passes in the same run (DESIGN section 5). `all` is where cases are looked up; a fault
-/// that names no case of it is not caught, and its note says so.
+/// that names no case of it is not caught, and its note says so. `twins` are unbroken results of the same run and size,
+/// where there are some already; cases that are missing from them are run.
 [[nodiscard]] std::vector<FaultResult> run_self_test(std::span<const Fault> planted, std::span<const Case> all,
-                                                     SuiteSize size, const SuiteOptions& options = {});
+                                                     SuiteSize size, const SuiteOptions& options = {},
+                                                     std::span<const CaseResult> twins = {});
 
 }  // namespace xpr

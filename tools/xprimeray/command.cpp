@@ -7,6 +7,8 @@
 #include <csignal>
 #include <cstdio>
 
+#include "core/io/csv.hpp"
+#include "core/io/errors.hpp"
 #include "metrics/catalogue.hpp"
 
 namespace xpr::cli {
@@ -36,6 +38,19 @@ std::string unknown_name(std::string_view what, std::string_view name, const std
   const std::string near = nearest_name(name, known);
   if (!near.empty()) return fmt::format("unknown {} '{}'; did you mean '{}'?", what, name, near);
   return fmt::format("unknown {} '{}'; there are {}", what, name, fmt::join(known, ", "));
+}
+
+void add_parameter(std::vector<NamedValue>& parameters, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  NamedValue parameter{std::string_view(text).substr(0, equals)};
+  const std::string_view value = equals == std::string::npos ? "" : std::string_view(text).substr(equals + 1);
+  if (parse_number(value, parameter.value) != NumberFault::none) {
+    throw InputError("--set " + text + ": needs name=number, as in --set a=0.9");
+  }
+  for (const NamedValue& other : parameters) {
+    if (other.name == parameter.name) throw InputError("--set " + text + ": is set twice");
+  }
+  parameters.push_back(parameter);
 }
 
 ProgressLine::ProgressLine(std::string label, bool wanted)

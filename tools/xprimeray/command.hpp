@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "metrics/spacetime.hpp"
+
 namespace xpr::cli {
 
 /// A subcommand and its work; the work returns an exit code (DESIGN section 8) or throws what main.cpp maps to one.
@@ -23,6 +25,8 @@ Command register_trace(CLI::App& program);
 Command register_list(CLI::App& program);
 Command register_explain(CLI::App& program);
 Command register_doctor(CLI::App& program);
+Command register_conform(CLI::App& program);
+Command register_validate(CLI::App& program);
 
 /// --quiet and --json, as every subcommand that works for long has them.
 struct OutputFlags {
@@ -42,6 +46,10 @@ void apply_config(CLI::App& command, const std::string& path);
 /// "unknown WHAT 'x'; did you mean 'y'?", or the known ones where none is near.
 [[nodiscard]] std::string unknown_name(std::string_view what, std::string_view name,
                                        const std::vector<std::string_view>& known);
+
+/// Adds the parameter of "--set a=0.9"; its name is a view into the text. Throws InputError for what is no name=number
+/// and for a name that is set already.
+void add_parameter(std::vector<NamedValue>& parameters, const std::string& text);
 
 /// A line with an ETA on standard error, where that is a terminal; silent otherwise.
 class ProgressLine {

@@ -41,20 +41,6 @@ Projection projection_named(const std::string& name) {
   throw InputError(unknown_name("projection", name, {projections.begin(), projections.end()}));
 }
 
-// "a=0.9" as name and number; the name is a view into the text.
-void add_parameter(std::vector<NamedValue>& parameters, const std::string& text) {
-  const std::size_t equals = text.find('=');
-  NamedValue parameter{std::string_view(text).substr(0, equals)};
-  const std::string_view value = equals == std::string::npos ? "" : std::string_view(text).substr(equals + 1);
-  if (parse_number(value, parameter.value) != NumberFault::none) {
-    throw InputError("--set " + text + ": needs name=number, as in --set a=0.9");
-  }
-  for (const NamedValue& other : parameters) {
-    if (other.name == parameter.name) throw InputError("--set " + text + ": is set twice");
-  }
-  parameters.push_back(parameter);
-}
-
 // Settings as they are after defaults, for people who want to repeat the run.
 Json resolved(const TraceOptions& options, const Transport& transport) {
   const TransportSettings& settings = transport.settings();
