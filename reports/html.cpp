@@ -87,7 +87,7 @@ class HtmlPage : public Page {
 
   void table(const Table& table) override {
     out() += "<div class=\"scroll\"><table>\n<thead><tr>";
-    for (const Column& column : table.columns) {
+    for (const TableColumn& column : table.columns) {
       out() += fmt::format("<th{}>{}</th>", class_attribute(column.number ? "number" : ""), xml_escaped(column.title));
     }
     out() += "</tr></thead>\n<tbody>\n";

@@ -44,7 +44,7 @@ class MarkdownPage : public Page {
   void table(const Table& table) override {
     std::string rule = "|";
     out_ += '|';
-    for (const Column& column : table.columns) {
+    for (const TableColumn& column : table.columns) {
       out_ += ' ' + escaped(column.title) + " |";
       rule += column.number ? " ---: |" : " --- |";
     }

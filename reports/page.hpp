@@ -18,13 +18,13 @@ struct Cell {
   std::string anchor = "";  ///< links to the section of that anchor where not empty
 };
 
-struct Column {
+struct TableColumn {
   std::string title;
   bool number = false;  ///< aligned to the right
 };
 
 struct Table {
-  std::vector<Column> columns;
+  std::vector<TableColumn> columns;
   std::vector<std::vector<Cell>> rows;  ///< each as long as `columns`
 };
 

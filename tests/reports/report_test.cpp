@@ -208,7 +208,7 @@ TEST(CaseTable, says_once_what_all_rows_share_and_keeps_what_they_do_not) {
   EXPECT_TRUE(has_fact("why this tolerance", "tol times the condition of the path"));
   for (const char* title :
        {"value", "reference", "abs. error", "rel. error", "truth error", "tolerance", "rank", "verdict"}) {
-    EXPECT_TRUE(std::any_of(shadow.table.columns.begin(), shadow.table.columns.end(), [&](const Column& column) {
+    EXPECT_TRUE(std::any_of(shadow.table.columns.begin(), shadow.table.columns.end(), [&](const TableColumn& column) {
       return column.title == title;
     })) << title;
   }
