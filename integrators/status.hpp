@@ -14,7 +14,7 @@ enum class Status {
   crossed,              ///< met --l-min or --l-max, or another terminal event
   max_steps,            ///< the step budget ran out
   max_affine,           ///< the affine parameter reached --lambda-max
-  step_underflow,       ///< the tolerance asks for steps below round-off
+  step_underflow,       ///< the tolerance asks for steps below round-off, or a fixed step is too long to be solved for
   not_finite,           ///< a NaN or an infinity appeared
   constraint_violated,  ///< the null constraint could not be restored or drifted beyond use
   outside_domain,       ///< the start, or the path, lies where chart or physics end

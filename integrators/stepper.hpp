@@ -17,7 +17,7 @@ namespace xpr {
 /// Hamilton's equations as a stepper sees them: dy/dlambda at y. Called often, never stored beyond its stepper.
 using Flow = std::function<PhaseState<double>(const PhaseState<double>&)>;
 
-/// Which error is tolerated where (DESIGN: the norm is a maximum). Component i of the error is divided by
+/// Which error is tolerated where; the norm is a maximum over components. Component i of the error is divided by
 /// absolute[i] + relative[i] |y_i|; components with absolute[i] = infinity are not graded.
 struct ErrorScale {
   std::array<double, 8> absolute{};

@@ -105,7 +105,7 @@ struct RayEnd {
 [[nodiscard]] std::array<double, 8> component_units(const Spacetime& spacetime, const PhaseState<double>& y,
                                                     double length_unit);
 
-/// The error norm of DESIGN section 4 for a chart: x^i against tol (length unit + |x^i|), angles against tol, momenta
+/// The error norm for a chart: x^i against tol (length unit + |x^i|), angles against tol, momenta
 /// against tol |p_t| (times the length unit where they are conjugate to an angle), t not graded unless asked.
 [[nodiscard]] ErrorScale error_scale(const Spacetime& spacetime, const PhaseState<double>& start,
                                      const TraceSettings& settings);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "integrators/step_control.hpp"
 #include "integrators/stepper.hpp"
 #include "test_flows.hpp"
 
@@ -230,6 +231,31 @@ TEST(BulirschStoer, keeps_an_accepted_step_within_the_tolerance) {
   EXPECT_LT(accepted, 60);
   // A dozen steps of 1e-9 each, stretched by the orbit.
   EXPECT_LT(test::largest_difference(y, test::orbits[2].at(lambda)), 1e-7);
+}
+
+TEST(StepControl, takes_roots_by_square_roots) {
+  EXPECT_EQ(inverse_root(256.0, 8), 0.5) << "x^(-1/8)";
+  EXPECT_EQ(inverse_root(65536.0, 5), 0.125) << "x^(-3/16), near x^(-1/5)";
+}
+
+TEST(StepControl, shortens_and_lengthens_within_bounds) {
+  EXPECT_NEAR(step_factor(1.0, 5), 0.9, 1e-15);
+  EXPECT_NEAR(step_factor(1.0 / 256.0, 8), 1.8, 1e-15);
+  EXPECT_EQ(step_factor(1e30, 5), 0.2);
+  EXPECT_EQ(step_factor(0.0, 5), 5.0);
+  EXPECT_EQ(step_factor(std::nan(""), 5), 0.1);
+  EXPECT_EQ(step_factor(std::numeric_limits<double>::infinity(), 8), 0.1);
+}
+
+TEST(StepControl, begins_with_a_step_that_is_accepted) {
+  for (const double tol : {1e-4, 1e-8, 1e-12}) {
+    const PhaseState<double> y = test::orbits[2].at(0.0);
+    const ErrorScale scale = test::settings_with_tolerance(tol).error_scale;
+    const double h = initial_step(Kepler{}, scale, y, Kepler{}(y), 5);
+    const double error = stepper_for(method_card("dopri54"), Kepler{}, tol)->step(y, h).error_norm;
+    EXPECT_LE(error, 1.0) << tol;
+    EXPECT_GT(error, 1e-6) << tol << ": not wastefully short";
+  }
 }
 
 TEST(MakeStepper, names_the_nearest_method) {
