@@ -355,6 +355,50 @@ class Trace(CommandTest):
             self.assertLess(peaks[300_000, name] - peaks[30_000, name], 6)
 
 
+class Sweep(CommandTest):
+    SMALL = ["sweep", "--metric", "schwarzschild", "--methods", "rk4,dop853", "--rays", "4", "--from", "1e-6",
+             "--to", "1e-8", "--step-from", "0.5", "--step-to", "0.25"]
+
+    def test_prints_a_line_for_every_setting(self):
+        lines = self.succeed(*self.SMALL).stdout.splitlines()
+        self.assertIn("truth: closed form", lines[0])
+        self.assertEqual([line.split()[0] for line in lines[2:7]], ["rk4"] * 2 + ["dop853"] * 3)
+
+    def test_json_points_carry_errors_costs_and_orders(self):
+        lines = [json.loads(line) for line in self.succeed(*self.SMALL, "--json").stdout.splitlines()]
+        points = [line for line in lines if line["event"] == "point"]
+        self.assertEqual(len(points), 5)
+        self.assertEqual([point.get("tol") for point in points[2:]], [1e-6, 1e-7, 1e-8])
+        # The order of RK4 between steps of 1/2 and 1/4 M, near the hole not yet in its clean regime.
+        self.assertAlmostEqual(points[1]["observed_order"], 4.0, delta=0.3)
+        for point in points:
+            self.assertGreater(point["evaluations_per_ray"], 0)
+        self.assertEqual(lines[-1]["event"], "end")
+
+    def test_the_report_holds_the_curves_and_repeats_to_the_bit(self):
+        hashes = set()
+        for name, threads in (("a", "1"), ("b", "2")):
+            done = self.succeed(*self.SMALL, "--json", "--out", self.path(name), "--threads", threads)
+            end = json.loads(done.stdout.splitlines()[-1])
+            hashes.add((end["rays_hash"], end["report_hash"]))
+            with h5py.File(os.path.join(self.path(name), "report.h5")) as file:
+                self.assertEqual(sorted(file["sweeps/schwarzschild"]), ["dop853", "rk4"])
+        self.assertEqual(len(hashes), 1)
+
+    def test_wrong_requests_name_what_would_be_right(self):
+        for arguments, says in (
+            (["--metric", "kerrr"], "did you mean 'kerr'?"),
+            (["--metric", "luneburg"], "no rays and no truth"),
+            (["--methods", "dopri45"], "did you mean 'dopri54'?"),
+            (["--methods", "verlet"], "does not separate"),
+            (["--set", "a=1.2"], "spin a = 1.2"),
+            (["--from", "1e-12", "--to", "1e-4"], "needs 1 > from >= to > 0"),
+            (["--rays", "0"], "0 rays"),
+        ):
+            with self.subTest(arguments):
+                self.refuse("sweep", *arguments, says=says)
+
+
 class OtherCommands(CommandTest):
     def test_every_help_has_an_example(self):
         names = [line.split()[0] for line in self.succeed("--help").stdout.split("Subcommands:")[1].splitlines()

@@ -21,6 +21,7 @@ struct Command {
   std::function<int()> run;
 };
 
+Command register_sweep(CLI::App& program);
 Command register_trace(CLI::App& program);
 Command register_list(CLI::App& program);
 Command register_explain(CLI::App& program);

@@ -11,9 +11,10 @@
 #include "core/io/json.hpp"
 #include "integrators/stepper.hpp"
 #include "metrics/catalogue.hpp"
-#include "reports/report.hpp"
+#include "report_inputs.hpp"
 #include "reports/terminal.hpp"
 #include "validation/suite.hpp"
+#include "validation/sweep.hpp"
 
 namespace xpr::cli {
 namespace {
@@ -38,21 +39,12 @@ std::string command_line(const ValidateOptions& options) {
 }
 
 ReportInputs report_inputs(const ValidateOptions& options, SuiteResult suite, double seconds) {
-  ReportInputs inputs;
-  inputs.suite = std::move(suite);
+  ReportInputs inputs = new_report(std::move(suite), options.threads, options.out, seconds);
   inputs.command = command_line(options);
   inputs.configuration = Json{{"suite", options.selection.suite},
                               {"case", options.selection.globs},
                               {"filter", options.selection.contains},
                               {"self-test", options.self_test}};
-  inputs.provenance = provenance();
-  inputs.circumstances = {{"threads", fmt::format("{}", options.threads)},
-                          {"out", options.out},
-                          {"seconds", fmt::format("{:.1f}", seconds)}};
-  for (const CatalogueEntry& entry : catalogue()) {
-    inputs.charts.push_back({std::string(entry.card->metric), std::string(entry.card->chart)});
-  }
-  for (const MethodCard& method : methods()) inputs.methods.emplace_back(method.id);
   return inputs;
 }
 
@@ -95,6 +87,12 @@ std::vector<Fault> selected_faults(const std::vector<const Case*>& selected) {
   return out;
 }
 
+/// A whole suite's report has sweeps; one of chosen cases has not.
+bool has_sweeps(const Selection& selection) {
+  const bool whole = selection.suite == "quick" || selection.suite == "full";
+  return whole && selection.globs.empty() && selection.contains.empty();
+}
+
 SuiteResult run_selected(const ValidateOptions& options, const std::vector<const Case*>& selected) {
   catch_interrupts();
   std::stop_source stop;
@@ -110,6 +108,16 @@ SuiteResult run_selected(const ValidateOptions& options, const std::vector<const
     ProgressLine line("self-test", shown);
     suite.faults =
         run_self_test(selected_faults(selected), cases(), size, suite_options(options, line, stop), suite.cases);
+  }
+  if (has_sweeps(options.selection) && !stop.stop_requested()) {
+    ProgressLine line("sweeps", shown);
+    suite.sweeps = default_sweeps(size, {.threads = options.threads,
+                                         .progress =
+                                             [&](std::int64_t done, std::int64_t total) {
+                                               if (interrupted()) stop.request_stop();
+                                               line.update(done, total);
+                                             },
+                                         .stop = stop.get_token()});
   }
   if (stop.stop_requested() || interrupted()) throw Interrupted("validate");
   return suite;
