@@ -41,7 +41,10 @@ Case fragile_case() {
     if (lab.planted("far-off")) value = 1.5;
     if (lab.planted("slightly-off")) value = 1.005;
     if (lab.planted("not-a-number")) value = std::numeric_limits<double>::quiet_NaN();
-    if (lab.planted("vague-truth")) truth_error = 1.0;
+    if (lab.planted("vague-truth")) {
+      value = 1.5;
+      truth_error = 1.0;
+    }
     if (lab.planted("throws")) throw std::runtime_error("no such ray");
     return std::vector<Row>{row_of("steady", 1.0, 1e-3), row_of("fragile", value, 1e-3, truth_error)};
   });
