@@ -13,7 +13,7 @@ namespace {
 /// In report order.
 constexpr std::array families = {
     conformance_cases,  //
-    flat_cases,        schwarzschild_cases, ellis_cases, media_cases, ellipsoid_cases, numerical_cases,
+    flat_cases,        schwarzschild_cases, kerr_cases, ellis_cases, media_cases, ellipsoid_cases, numerical_cases,
 };
 
 }  // namespace

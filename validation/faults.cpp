@@ -11,7 +11,7 @@ namespace xpr {
 namespace {
 
 constexpr std::array families = {
-    metric_faults, flat_faults, schwarzschild_faults, ellis_faults, media_faults, numerical_faults,
+    metric_faults, flat_faults, schwarzschild_faults, kerr_faults, ellis_faults, media_faults, numerical_faults,
 };
 
 }  // namespace

@@ -93,6 +93,18 @@ struct SweptRay {
 /// named.
 [[nodiscard]] double killing_constant(const Spacetime& chart, const PhaseState<double>& y, std::string_view name);
 
+/// Bisects on how a ray ends: `escapes(x)` is false at `low` and true at `high`. Stops at `width` or at neighbouring
+/// doubles.
+template <class Escapes>
+[[nodiscard]] double bisect_fate(double low, double high, double width, const Escapes& escapes) {
+  while (high - low > width) {
+    const double middle = 0.5 * (low + high);
+    if (!(middle > low && middle < high)) break;
+    (escapes(middle) ? high : low) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 /// The truth's own conditioning and the tracer's local tolerance, put together: `steps` local errors of `tol`, each
 /// amplified by at most `condition`, plus the same for round-off.
 [[nodiscard]] Tolerance accumulated(const RayEnd& ray, double tol, double condition);

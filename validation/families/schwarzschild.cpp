@@ -240,17 +240,6 @@ double photon_sphere_from_flow(const Spacetime& areal) {
   return 0.5 * (inside + outside);
 }
 
-/// Bisects on how a ray ends: `escapes(x)` is false at `low` and true at `high`.
-template <class Escapes>
-double bisect_fate(double low, double high, double width, const Escapes& escapes) {
-  while (high - low > width) {
-    const double middle = 0.5 * (low + high);
-    if (!(middle > low && middle < high)) break;
-    (escapes(middle) ? high : low) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 /// A state of the areal chart moving tangentially at r.
 PhaseState<double> tangential(const Spacetime& areal, double r) {
   const Vec4<double> x = {0.0, r, 0.5 * pi<double>(), 0.0};
