@@ -81,12 +81,9 @@ ConvergenceClass convergence_class(std::span<const Rung> ladder, std::size_t las
   const std::vector<double>& f2 = ladder[last].values;
   if (distance(f1, f2) <= round_off) return ConvergenceClass::round_off;
   double along = 0.0;
-  double before = 0.0;
-  for (std::size_t i = 0; i < f0.size(); ++i) {
-    along += (f2[i] - f1[i]) * (f1[i] - f0[i]);
-    before += (f1[i] - f0[i]) * (f1[i] - f0[i]);
-  }
-  if (distance(f1, f2) >= distance(f0, f1) || !std::isfinite(along)) return ConvergenceClass::divergent;
+  for (std::size_t i = 0; i < f0.size(); ++i) along += (f2[i] - f1[i]) * (f1[i] - f0[i]);
+  if (!std::isfinite(along)) return ConvergenceClass::unknown;  // a rung lost rays
+  if (distance(f1, f2) >= distance(f0, f1)) return ConvergenceClass::divergent;
   return along >= 0.0 ? ConvergenceClass::monotone : ConvergenceClass::oscillatory;
 }
 

@@ -36,7 +36,7 @@ struct Rung {
 
 /// How the solutions of three neighbouring rungs approach each other.
 enum class ConvergenceClass {
-  unknown,      ///< fewer than three rungs
+  unknown,      ///< fewer than three rungs, or one of them is no number
   monotone,     ///< each change is a fraction of the one before, in its direction
   oscillatory,  ///< a fraction of it, in the other direction
   divergent,    ///< larger than the one before
@@ -44,8 +44,8 @@ enum class ConvergenceClass {
 };
 [[nodiscard]] std::string_view to_string(ConvergenceClass kind);  ///< "" for unknown
 
-/// The class of the rung `last` (and its two predecessors), from the least-squares ratio of successive changes over all
-/// values; changes whose root mean square is below `round_off` are not read.
+/// The class of the rung `last` (and its two predecessors), from the norms of the two changes and from their scalar
+/// product over all values; a change whose root mean square is below `round_off` is not read.
 [[nodiscard]] ConvergenceClass convergence_class(std::span<const Rung> ladder, std::size_t last, double round_off);
 
 /// Grid convergence index of rung `last`: 1.25 times Richardson's estimate |f_last - f_before| / (r^p - 1), with r the
