@@ -296,15 +296,7 @@ Hashes hashes(const SuiteResult& suite) {
   }
   CanonicalHash rays;
   for (const CaseResult& result : suite.cases) {
-    DatasetHash& labels = rays.dataset(case_path(result) + "/label");
-    DatasetHash& values = rays.dataset(case_path(result) + "/value");
-    DatasetHash& evaluations = rays.dataset(case_path(result) + "/evaluations");
-    for (const Row& row : result.rows) {
-      if (row.method.empty() || !measured(row)) continue;
-      labels.add(std::string_view(row.label));
-      values.add(row.value);
-      evaluations.add(row.evaluations);
-    }
+    rays.dataset(case_path(result)).add(std::string_view(result.transported));
   }
   for (const Curve& curve : curves_of(suite)) {
     for (const SweepPoint& point : curve.points) {

@@ -49,7 +49,8 @@ struct Datasets {
 /// 32 hexadecimal digits each (DESIGN section 6).
 struct Hashes {
   std::string report;  ///< over every column of result_datasets: truth, errors and verdicts included
-  std::string rays;  ///< over what transport put out: values and evaluations of the rows and sweeps that step a method
+  std::string
+      rays;  ///< over what transport put out: the ends of all rays traced by the cases, drifts and costs of the sweeps
 };
 
 /// Cases, sweeps and faults.

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/io/hash.hpp"
 #include "integrators/tracer.hpp"
 #include "metrics/spacetime.hpp"
 #include "validation/result.hpp"
@@ -39,6 +40,14 @@ class Lab {
  public:
   explicit Lab(SuiteSize size, const Fault* fault = nullptr) : size_(size), fault_(fault) {}
 
+  /// The same lab, which adds the end of every ray it traces to `transported`, in the order of the calls: what
+  /// rays_hash is made of. For one case on one thread.
+  [[nodiscard]] Lab recording(DatasetHash& transported) const {
+    Lab lab = *this;
+    lab.transported_ = &transported;
+    return lab;
+  }
+
   [[nodiscard]] bool full() const { return size_ == SuiteSize::full; }
   /// True inside a run that plants the fault of that id: for faults in a truth's formula or a comparison.
   [[nodiscard]] bool planted(std::string_view fault_id) const { return fault_ != nullptr && fault_->id == fault_id; }
@@ -56,6 +65,7 @@ class Lab {
  private:
   SuiteSize size_;
   const Fault* fault_;
+  DatasetHash* transported_ = nullptr;
 };
 
 /// A case: what it claims, and how its rows are made. `run` judges its rows; an exception becomes one `error` row.

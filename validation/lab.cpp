@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -26,15 +27,22 @@ std::unique_ptr<Stepper> Lab::stepper(std::string_view method, const Flow& flow,
 
 RayEnd Lab::trace(const Spacetime& spacetime, const PhaseState<double>& start, int sheet, const TraceSettings& settings,
                   std::span<const Event> events, const std::function<void(const StepView&)>& observer) const {
-  if (fault_ == nullptr) return trace_ray(spacetime, start, sheet, settings, events, observer);
-  TraceSettings faulty = settings;
-  if (fault_->stepper) {
-    faulty.stepper_factory = [this](std::string_view method, const Flow& flow, const StepperSettings& wanted) {
+  TraceSettings used = settings;
+  if (fault_ != nullptr && fault_->stepper) {
+    used.stepper_factory = [this](std::string_view method, const Flow& flow, const StepperSettings& wanted) {
       return stepper(method, flow, wanted);
     };
   }
-  if (fault_->settings) fault_->settings(faulty);
-  return trace_ray(spacetime, start, sheet, faulty, events, observer);
+  if (fault_ != nullptr && fault_->settings) fault_->settings(used);
+  RayEnd end = trace_ray(spacetime, start, sheet, used, events, observer);
+  if (transported_ != nullptr) {
+    transported_->add(to_string(end.status));
+    transported_->add(std::span<const double>(end.y.c));
+    transported_->add(end.lambda);
+    transported_->add(end.steps);
+    transported_->add(static_cast<std::int64_t>(end.sheet));
+  }
+  return end;
 }
 
 }  // namespace xpr

@@ -68,6 +68,8 @@ struct CaseInfo {
 struct CaseResult {
   CaseInfo info;
   std::vector<Row> rows;
+  std::string
+      transported{};     ///< digest of the ends of all rays that the case traced, in order: the same on every machine
   double seconds = 0.0;  ///< wall time: volatile, never hashed
 };
 

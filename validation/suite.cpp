@@ -52,17 +52,19 @@ void for_each_index(std::size_t count, const SuiteOptions& options, const std::f
 
 /// The rows of one case under a lab; what was thrown becomes a row.
 CaseResult run_one(const Case& one, const Lab& lab) {
-  CaseResult result{.info = one.info, .rows = {}, .seconds = 0.0};
+  CaseResult result{.info = one.info, .rows = {}, .transported = {}, .seconds = 0.0};
+  CanonicalHash transported;
   const Clock::time_point begin = Clock::now();
   Row broken;
   broken.label = "run";
   try {
-    result.rows = one.run(lab);
+    result.rows = one.run(lab.recording(transported.dataset("rays")));
     broken.note = "the case made no rows";
   } catch (const std::exception& problem) {
     result.rows.clear();
     broken.note = fmt::format("exception: {}", problem.what());
   }
+  result.transported = transported.hex();
   if (result.rows.empty()) result.rows.push_back(std::move(broken));
   result.seconds = seconds_since(begin);
   return result;

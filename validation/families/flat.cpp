@@ -103,20 +103,20 @@ std::vector<Row> aberration_rows(const Lab& lab) {
       TraceSettings settings = trace_settings(method);
       settings.lambda_max = 100.0;
       const Launch ray{
-          "", {100.0 * std::sin(theta), 0.0, 100.0 * std::cos(theta)}, {-std::sin(theta), 0.0, -std::cos(theta)}};
+          "", {100.0 * sin(theta), 0.0, 100.0 * cos(theta)}, {-sin(theta), 0.0, -cos(theta)}};
       const RayEnd end = lab.trace(*chart, light(ray), 1, settings);
       // His frequency -p.u and the component of p along his own z axis, e_z = gamma (beta, 0, 0, 1).
       const double frequency = -gamma * (end.y[4] + beta * end.y[7]);
       const double along = gamma * (beta * end.y[4] + end.y[7]);
       const double sign = lab.planted(aberration_fault) ? -1.0 : 1.0;
-      const double expected = (std::cos(theta) + sign * beta) / (1.0 + sign * beta * std::cos(theta));
+      const double expected = (cos(theta) + sign * beta) / (1.0 + sign * beta * cos(theta));
       Row row = make_row(fmt::format("cos theta' at beta = {}, theta = {} deg", beta, degrees), *chart, method,
                          {{"beta", beta, "1"}, {"theta", degrees, "degree"}});
       const Tolerance tolerance{1e-14 * square(gamma), "round-off, amplified by gamma^2 in the boost"};
       grade(row, -along / frequency, {expected, 4e-16}, tolerance);
       rows.push_back(row);
       row.label = fmt::format("Doppler factor at beta = {}, theta = {} deg", beta, degrees);
-      grade(row, frequency, {gamma * (1.0 + sign * beta * std::cos(theta)), 4e-16 * gamma}, tolerance);
+      grade(row, frequency, {gamma * (1.0 + sign * beta * cos(theta)), 4e-16 * gamma}, tolerance);
       rows.push_back(std::move(row));
     }
   }

@@ -98,7 +98,7 @@ std::vector<Row> luneburg_rows(const Lab& lab) {
   const auto chart = medium(lab, "luneburg");
   for (const double y0 : {0.0, 0.1, 0.6, 0.9, 0.99}) {
     for (const MethodAt& method : media_methods(lab)) {
-      const std::array<double, 3> from = {-2.0 * R, y0 * std::cos(0.7), y0 * std::sin(0.7)};
+      const std::array<double, 3> from = {-2.0 * R, y0 * cos(0.7), y0 * sin(0.7)};
       TraceSettings settings = trace_settings(method);
       const double rim = std::sqrt(1.0 - square(y0));
       // Outside p = 1, so lambda is the length; inside x = x0 cos lambda + p0 sin lambda: a quarter period to the
