@@ -80,6 +80,9 @@ fs::path make_aside_file(const fs::path& folder, const fs::path& target) {
 }
 
 fs::path make_aside_directory(const fs::path& target) {
+  // Folders on the way to the target are made; if one cannot be, making the directory in it says why.
+  std::error_code made_below;
+  fs::create_directories(parent_of(target), made_below);
   // mkdtemp wants the X at the very end.
   std::string name = (parent_of(target) / ("." + target.filename().string() + ".part.XXXXXX")).string();
   if (::mkdtemp(name.data()) == nullptr) {

@@ -25,7 +25,7 @@ constexpr const char* beta_fault = "kerr-screen-upside-down";
 /// The camera ray of a screen point (DESIGN: the common screen), followed back in time: L = -alpha sin i and eta =
 /// (alpha^2 - a^2) cos^2 i + beta^2, which is p_theta = beta at theta = i. Exact constants at any distance.
 ChartState camera_ray(const Charts& at, double r, double inclination, double alpha, double beta) {
-  return inward_light(at, r, inclination, -alpha * std::sin(inclination), beta);
+  return inward_light(at, r, inclination, -alpha * sin(inclination), beta);
 }
 
 struct View {
@@ -39,8 +39,8 @@ double edge_from_rays(const Lab& lab, const Charts& at, const View& view, double
   settings.r_min = *at.transport->default_r_min();
   settings.r_max = 15.0 * mass;
   return bisect_fate(mass, 8.0 * mass, 1e-13 * mass, [&](double distance) {
-    const ChartState start = camera_ray(at, 20.0 * mass, view.inclination_degrees * degree, distance * std::cos(angle),
-                                        distance * std::sin(angle));
+    const ChartState start = camera_ray(at, 20.0 * mass, view.inclination_degrees * degree, distance * cos(angle),
+                                        distance * sin(angle));
     const RayEnd end = lab.trace(*at.transport, start.state, 1, settings);
     row.evaluations += end.evaluations;
     return end.status == Status::escaped;
@@ -106,7 +106,7 @@ constexpr std::array crossings = {
 const std::array<Event, 1> equatorial_plane{
     {{.name = "equatorial plane",
       .g = [](const Spacetime& chart, const PhaseState<double>& y,
-              int) { return chart.card().chart == "boyer-lindquist" ? std::cos(y[2]) : y[3]; },
+              int) { return chart.card().chart == "boyer-lindquist" ? cos(y[2]) : y[3]; },
       .terminal = true}}};
 
 std::vector<Row> crossing_rows(const Lab& lab) {
