@@ -107,13 +107,11 @@ ExactValue deflection_from_periapsis(double mass, double periapsis) {
 }
 
 ExactValue swept_angle(double mass, double impact_parameter, double r1, double r2, bool via_periapsis) {
-  return rounded(
-      equatorial_light::swept_angle(ray_of(mass, impact_parameter), Path{r1, r2, via_periapsis}));
+  return rounded(equatorial_light::swept_angle(ray_of(mass, impact_parameter), Path{r1, r2, via_periapsis}));
 }
 
 ExactValue coordinate_time(double mass, double impact_parameter, double r1, double r2, bool via_periapsis) {
-  return rounded(
-      equatorial_light::coordinate_time(ray_of(mass, impact_parameter), Path{r1, r2, via_periapsis}));
+  return rounded(equatorial_light::coordinate_time(ray_of(mass, impact_parameter), Path{r1, r2, via_periapsis}));
 }
 
 ExactValue weak_field_series(double mass, double impact_parameter, int order) {

@@ -71,8 +71,9 @@ void grade(Row& row, double value, const Truth& truth, const Tolerance& toleranc
 
 void grade_bound(Row& row, double quantity, const Tolerance& bound) { grade(row, quantity, {0.0, 0.0}, bound); }
 
-Row skipped_row(std::string label, std::string reason) {
+Row skipped_row(std::string label, std::string reason, std::string unit) {
   Row row;
+  row.unit = std::move(unit);
   row.label = std::move(label);
   row.note = std::move(reason);
   row.verdict = Verdict::skipped;

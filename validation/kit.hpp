@@ -54,7 +54,7 @@ void grade(Row& row, double value, const Truth& truth, const Tolerance& toleranc
 void grade_bound(Row& row, double quantity, const Tolerance& bound);
 
 /// A row for what could not be measured here, with the reason; printed as loudly as a failure.
-[[nodiscard]] Row skipped_row(std::string label, std::string reason);
+[[nodiscard]] Row skipped_row(std::string label, std::string reason, std::string unit = "1");
 
 /// Light at (r, theta, phi = 0) of `classical` (spherical: t, r or l, theta, phi) with E = 1, azimuthal momentum L,
 /// polar momentum p_theta, moving inward or outward, expressed in `chart`. `classical` has no cross terms between the

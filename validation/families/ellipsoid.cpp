@@ -44,17 +44,16 @@ PhaseState<double> light(const Body& body, double latitude, double azimuth) {
   const double w_sq = 1.0 - e_sq * square(sin(latitude * degree));
   const double prime_vertical = body.a / std::sqrt(w_sq);
   const double meridian = prime_vertical * (1.0 - e_sq) / w_sq;
-  return {{0.0, latitude * degree, 0.0, 0.0},
-          {-1.0, meridian * cos(azimuth * degree),
-           prime_vertical * cos(latitude * degree) * sin(azimuth * degree), 0.0}};
+  return {
+      {0.0, latitude * degree, 0.0, 0.0},
+      {-1.0, meridian * cos(azimuth * degree), prime_vertical * cos(latitude * degree) * sin(azimuth * degree), 0.0}};
 }
 
 /// The point of the surface with a given geographic normal: where two ends are compared, poles included.
 std::array<double, 3> on_surface(const Body& body, double latitude, double longitude) {
   const double e_sq = body.f * (2.0 - body.f);
   const double prime_vertical = body.a / std::sqrt(1.0 - e_sq * square(sin(latitude)));
-  return {prime_vertical * cos(latitude) * cos(longitude),
-          prime_vertical * cos(latitude) * sin(longitude),
+  return {prime_vertical * cos(latitude) * cos(longitude), prime_vertical * cos(latitude) * sin(longitude),
           prime_vertical * (1.0 - e_sq) * sin(latitude)};
 }
 

@@ -102,8 +102,7 @@ std::vector<Row> aberration_rows(const Lab& lab) {
       const MethodAt method{"dop853", 1e-13};
       TraceSettings settings = trace_settings(method);
       settings.lambda_max = 100.0;
-      const Launch ray{
-          "", {100.0 * sin(theta), 0.0, 100.0 * cos(theta)}, {-sin(theta), 0.0, -cos(theta)}};
+      const Launch ray{"", {100.0 * sin(theta), 0.0, 100.0 * cos(theta)}, {-sin(theta), 0.0, -cos(theta)}};
       const RayEnd end = lab.trace(*chart, light(ray), 1, settings);
       // His frequency -p.u and the component of p along his own z axis, e_z = gamma (beta, 0, 0, 1).
       const double frequency = -gamma * (end.y[4] + beta * end.y[7]);

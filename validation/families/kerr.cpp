@@ -291,7 +291,8 @@ void append_deflection(const Lab& lab, const Charts& at, double spin, double b, 
     const std::string label = fmt::format("a = {}, b = {:.7g} M ({} b_c), {}, {} {:g}", spin, b, ratio,
                                           at.transport->card().chart, method_label(method), method.setting);
     if (below_round_off(at, spin, b, method)) {
-      rows.push_back(skipped_row(label, "so near to the extremal horizon round-off exceeds this tol in this chart"));
+      rows.push_back(
+          skipped_row(label, "so near to the extremal horizon round-off exceeds this tol in this chart", "rad"));
       continue;
     }
     Row row = make_row(label, *at.transport, method, {{"a/M", spin, "1"}, {"b", b, "M"}, {"b/b_c", ratio, "1"}});

@@ -39,8 +39,8 @@ double edge_from_rays(const Lab& lab, const Charts& at, const View& view, double
   settings.r_min = *at.transport->default_r_min();
   settings.r_max = 15.0 * mass;
   return bisect_fate(mass, 8.0 * mass, 1e-13 * mass, [&](double distance) {
-    const ChartState start = camera_ray(at, 20.0 * mass, view.inclination_degrees * degree, distance * cos(angle),
-                                        distance * sin(angle));
+    const ChartState start =
+        camera_ray(at, 20.0 * mass, view.inclination_degrees * degree, distance * cos(angle), distance * sin(angle));
     const RayEnd end = lab.trace(*at.transport, start.state, 1, settings);
     row.evaluations += end.evaluations;
     return end.status == Status::escaped;

@@ -126,7 +126,7 @@ std::vector<Row> deflection_rows(const Lab& lab) {
     for (const double ratio : {1.0001, 1.001, 1.01, 1.1, 1.5, 3.0, 20.0, 200.0, 1924.5}) {
       for (const MethodAt& method : deflection_methods(lab)) {
         if (method.method == "odeint:rkf78" && ratio > 100.0) {
-          rows.push_back(skipped_row(fmt::format("b = {} b_c, {}, odeint:rkf78", ratio, transport), blind_pair));
+          rows.push_back(skipped_row(fmt::format("b = {} b_c, {}, odeint:rkf78", ratio, transport), blind_pair, "rad"));
           continue;
         }
         const double b = ratio * critical_b;
