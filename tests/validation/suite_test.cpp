@@ -3,6 +3,7 @@
 
 #include "validation/suite.hpp"
 
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
@@ -112,6 +113,26 @@ TEST(Suite, order_and_rows_do_not_depend_on_threads) {
     EXPECT_EQ(four[i].info.id, all[i].info.id);
     EXPECT_EQ(one[i].rows.at(0).value, four[i].rows.at(0).value);
   }
+}
+
+TEST(Suite, digests_the_rays_that_a_case_traced) {
+  const auto tracing = [](double end) {
+    return case_of("toy/tracing", [end](const Lab& lab) {
+      TraceSettings settings;
+      settings.lambda_max = end;
+      const auto flat = lab.spacetime("minkowski", "cartesian");
+      const RayEnd ray = lab.trace(*flat, {{0.0, 0.0, 0.0, 0.0}, {-1.0, 1.0, 0.0, 0.0}}, 1, settings);
+      return std::vector<Row>{row_of("length", ray.y[1] / end, 1e-12)};
+    });
+  };
+  const auto digest = [](const Case& one) {
+    const std::vector<const Case*> selected = {&one, &one};
+    const std::vector<CaseResult> results = run_cases(selected, SuiteSize::quick, {.threads = 2});
+    EXPECT_EQ(results.at(0).transported, results.at(1).transported);
+    return results.at(0).transported;
+  };
+  EXPECT_EQ(digest(tracing(2.0)), digest(tracing(2.0)));
+  EXPECT_NE(digest(tracing(2.0)), digest(tracing(std::nextafter(2.0, 3.0))));
 }
 
 TEST(Suite, an_exception_becomes_one_error_row) {
