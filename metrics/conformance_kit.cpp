@@ -216,6 +216,17 @@ double largest(const SymTensor4<double>& tensor) {
   return out;
 }
 
+namespace {
+
+/// Newton's guess of how far g^rr is from its next zero: a horizon of the chart, the inner one too.
+double to_zero_of_radial(const Subject& subject, const Vec4<double>& x) {
+  const auto radial = [&](double r) { return subject.chart.inverse_metric({x[0], r, x[2], x[3]})(1, 1); };
+  const double apart = 1e-6 * subject.length;
+  return std::abs(radial(x[1]) * 2.0 * apart / (radial(x[1] + apart) - radial(x[1] - apart)));
+}
+
+}  // namespace
+
 double smooth_step(const Subject& subject, const Vec4<double>& x, std::size_t mu) {
   const CoordinateKind kind = subject.chart.card().coordinates[mu].kind;
   if (kind == CoordinateKind::polar_angle) return std::min(0.02, 0.3 * std::abs(sin(x[mu])));
@@ -230,6 +241,7 @@ double smooth_step(const Subject& subject, const Vec4<double>& x, std::size_t mu
   }
   const std::optional<double> horizon = subject.chart.horizon_radius();
   if (horizon) step = std::min(step, 0.3 * std::abs(subject.chart.radius(x) - *horizon));
+  if (layout_of(subject.chart.card()) == Layout::polar) step = std::min(step, 0.3 * to_zero_of_radial(subject, x));
   return step;
 }
 

@@ -75,10 +75,13 @@ struct Frame {
 
 /// df/ds at s = 0 for several functions at once: central differences from step h down, extrapolated by Ridders' scheme,
 /// each function keeping the entry of its tableau with the smallest estimated error. Good to about 1e-12 of the
-/// functions' size over h where they are smooth over |s| <= h.
+/// functions' size over h where they are smooth over |s| <= h. Only entries of four extrapolations or more count: the
+/// estimate of an early one can be tiny by accident, where its h^2 and h^4 terms cancel, and then hides an error of
+/// 1e-9.
 template <std::size_t N, class F>
 [[nodiscard]] std::array<double, N> differentiate(const F& f, double h) {
   constexpr int levels = 7;
+  constexpr std::size_t fewest_extrapolations = 4;
   std::array<double, N> best{};
   std::array<double, N> best_error;
   best_error.fill(std::numeric_limits<double>::infinity());
@@ -94,7 +97,7 @@ template <std::size_t N, class F>
         power *= 4.0;
         row[j][k] = (power * row[j - 1][k] - previous[j - 1][k]) / (power - 1.0);
         const double error = std::max(std::abs(row[j][k] - row[j - 1][k]), std::abs(row[j][k] - previous[j - 1][k]));
-        if (!(error < best_error[k])) continue;
+        if (j < fewest_extrapolations || !(error < best_error[k])) continue;
         best_error[k] = error;
         best[k] = row[j][k];
       }
