@@ -55,17 +55,13 @@ std::function<void(const StepView&)> RayAngles::observer() {
   };
 }
 
-// The table's azimuth less the polar angle of (x, y), of a Cartesian transport chart: taken where the latter is zero,
-// so that no branch of an arctangent is near.
+// The table's azimuth less the polar angle of (x, y), of a Cartesian transport chart: as the chart knows it, else from
+// the chart map where the latter is zero, so that no branch of an arctangent is near.
 double RayAngles::offset(const PhaseState<double>& y, int sheet) const {
+  if (const std::optional<double> known = transport_.azimuth_offset(y.x())) return *known;
   const double in_plane = std::sqrt(y[1] * y[1] + y[2] * y[2]);
   const PhaseState<double> turned({y[0], in_plane, 0.0, y[3]}, {-1.0, 0.0, 0.0, 0.0});
-  if (transport_.card().chart != "kerr-schild-outgoing") {
-    return change_chart(transport_, table_, turned, sheet).state[*azimuth_];
-  }
-  // The map to the ingoing hub turns by an angle known modulo 2 pi only; but the outgoing chart is the ingoing one
-  // under t -> -t, phi -> -phi, so its offset is the ingoing one's with the other sign.
-  return -table_.from_hub(turned).first[*azimuth_];
+  return change_chart(transport_, table_, turned, sheet).state[*azimuth_];
 }
 
 double RayAngles::swept_azimuth(const RayEnd& end) const {

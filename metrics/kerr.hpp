@@ -169,6 +169,13 @@ struct KerrSchild : KerrParameters {
   /// All of space but the disc r = 0; inside the horizon too.
   [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x) && radius(x) > 0.0; }
 
+  /// Boyer-Lindquist phi less the polar angle of (x, y): -s [Phi(r) + arg(r + ia)], which grows without bound towards
+  /// the horizon.
+  [[nodiscard]] double azimuth_offset(const Vec4<double>& x) const {
+    const double r = radius(x);
+    return -Direction * (kerr_shift(*this, r).azimuth + atan2(a, r));
+  }
+
   /// From outgoing to ingoing: twice the shift, about the axis by the phase of (r + ia) / (r - ia) as well.
   template <class T>
   requires(Direction < 0) [[nodiscard]] constexpr Vec4<T> to_hub(const Vec4<T>& x, int /*sheet*/) const {

@@ -101,6 +101,10 @@ class Spacetime {
   /// Undoes to_hub; the second member is the sheet on which the state lies.
   [[nodiscard]] virtual std::pair<PhaseState<double>, int> from_hub(const PhaseState<double>& y) const = 0;
 
+  /// The classical chart's azimuth less this chart's own azimuthal angle at x, where the module knows it with all its
+  /// turns: maps through the hub give it modulo 2 pi only.
+  [[nodiscard]] virtual std::optional<double> azimuth_offset(const Vec4<double>& x) const = 0;
+
   /// Where to go on if `y` is better described in another chart of the atlas; nothing to do otherwise. The chart lives
   /// as long as this one.
   [[nodiscard]] virtual std::optional<ChartSwitch> atlas_switch(const PhaseState<double>& y, int sheet) const = 0;

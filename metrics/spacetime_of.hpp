@@ -18,6 +18,8 @@
 //     Vec4<T> to_hub(const Vec4<T>&, int sheet) const                as a point map, momenta by its Jacobian,
 //     PhaseState<T> to_hub(const PhaseState<T>&, int sheet) const    or on phase space, written out
 //   int hub_sheet(const Vec4<double>&) const                         the sheet on which a point of the hub lies
+//   double azimuth_offset(const Vec4<double>&) const                 classical azimuth less that of (x, y), in full:
+//                                                                    needed where maps through the hub lose turns
 //   std::optional<AtlasMove> atlas_switch(const PhaseState<double>&, int sheet) const
 //   Partner atlas_partner() const                                    the chart that atlas_switch goes to, if another
 #pragma once
@@ -178,6 +180,11 @@ class SpacetimeOf final : public Spacetime {
   [[nodiscard]] std::pair<PhaseState<double>, int> from_hub(const PhaseState<double>& y) const override {
     const int sheet = sheet_at_hub(module_, y.x());
     return {state_from_hub(module_, y, sheet), sheet};
+  }
+
+  [[nodiscard]] std::optional<double> azimuth_offset([[maybe_unused]] const Vec4<double>& x) const override {
+    if constexpr (requires { module_.azimuth_offset(x); }) return module_.azimuth_offset(x);
+    return std::nullopt;
   }
 
   [[nodiscard]] std::optional<ChartSwitch> atlas_switch([[maybe_unused]] const PhaseState<double>& y,

@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "metrics/catalogue.hpp"
@@ -262,6 +265,30 @@ TEST(KerrShift, is_that_of_schwarzschild_without_spin) {
     EXPECT_NEAR(kerr_shift(KerrParameters{.M = 1.0, .a = 0.0}, r).time, SchwarzschildMass{}.time_shift(r - 2.0),
                 16.0 * unit * (1.0 + std::abs(std::log(r))));
   }
+}
+
+TEST(ChartMaps, give_what_a_chart_says_of_its_azimuth_modulo_whole_turns) {
+  for (const double a : {0.0, 0.9, -0.7, 0.998}) {
+    const std::array<NamedValue, 2> hole{{{"M", 1.0}, {"a", a}}};
+    const auto classical = make_spacetime("kerr", "boyer-lindquist", hole);
+    const double w = std::sqrt(1.0 - a * a), outer = 1.0 + w, inner = 1.0 - w;
+    for (const double sense : {1.0, -1.0}) {
+      const auto regular = make_spacetime("kerr", sense > 0.0 ? "kerr-schild" : "kerr-schild-outgoing", hole);
+      for (const double r : {30.0, 3.0, outer * (1.0 + 1e-3), outer * (1.0 + 1e-9)}) {
+        const PhaseState<double> y({0.0, r, 0.8, 0.4}, {-1.0, 0.0, 0.0, 0.0});
+        const PhaseState<double> image = change_chart(*classical, *regular, y).state;
+        const double offset = regular->azimuth_offset(image.x()).value();
+        // r - r+ comes back from Cartesian coordinates with a few units of round-off of r+, and its logarithm with as
+        // many over 1e-9, times a / (r+ - r-) <= 8.
+        const double tolerance = 1e-14 + 64.0 * unit * outer / (r - outer);
+        const double winding = a / (2.0 * w) * std::log(std::abs((r - outer) / (r - inner)));
+        EXPECT_NEAR(offset, -sense * (winding + std::atan(a / r)), tolerance) << a << " " << r << " " << sense;
+        const double mapped = 0.4 - std::atan2(image[2], image[1]);
+        EXPECT_NEAR(std::remainder(mapped - offset, 2.0 * std::numbers::pi), 0.0, tolerance) << a << " " << r;
+      }
+    }
+  }
+  EXPECT_FALSE(make_spacetime("minkowski", "cartesian")->azimuth_offset({}).has_value());
 }
 
 }  // namespace
