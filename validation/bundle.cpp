@@ -18,11 +18,17 @@ std::array<double, 3> cross(const std::array<double, 3>& a, const std::array<dou
 
 double norm(const std::array<double, 3>& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
 
+std::array<double, 3> normalised(std::array<double, 3> a) {
+  const double length = norm(a);
+  for (double& component : a) component /= length;
+  return a;
+}
+
 medium_exact::Vector position(const PhaseState<double>& y) { return {y[1], y[2], y[3]}; }
 medium_exact::Vector momentum(const PhaseState<double>& y) { return {y[5], y[6], y[7]}; }
 
-/// Where a fish-eye's ray is at an affine parameter between 0 and `turn`, one turn: its optical path by bisection of
-/// Kepler's equation, then the closed form.
+/// Where a ray of the fish-eye of radius 1 is at an affine parameter between 0 and `turn`, one turn: its optical path
+/// by bisection of Kepler's equation, then the closed form.
 PhaseState<double> fisheye_state(const PhaseState<double>& start, double lambda) {
   double low = 0.0, high = 2.0 * std::numbers::pi;
   for (int halving = 0; halving < 60; ++halving) {
@@ -70,16 +76,20 @@ Flow Bundle::flow() const {
   return [spacetime = chart.get()](const PhaseState<double>& y) { return spacetime->flow(y); };
 }
 
-Bundle fisheye_orbits(const Lab& lab, int rays, FisheyePath path) {
+Bundle fisheye_orbits(const Lab& lab, int rays, FisheyePath path, double R) {
   Bundle bundle;
-  const NamedValue radius{"R", 1.0};
+  const NamedValue radius{"R", R};
   bundle.chart = lab.spacetime("maxwell-fisheye", "cartesian", {&radius, 1});
+  bundle.length_unit = R;
+  // Lengths and affine parameters scale with R; n and p do not depend on it.
+  const auto scaled = [R](PhaseState<double> y) {
+    for (std::size_t mu = 0; mu < 4; ++mu) y[mu] *= R;
+    return y;
+  };
   SeededNumbers seeded(0x1854);  // the year of Maxwell's fish-eye
   for (int i = 0; i < rays; ++i) {
     const std::array<double, 3> radial = seeded.direction();
-    std::array<double, 3> across = cross(radial, seeded.direction());
-    const double length = norm(across);
-    for (double& component : across) component /= length;
+    const std::array<double, 3> across = normalised(cross(radial, seeded.direction()));
     const double r = seeded.uniform(0.45, 0.75);
     const double cosine = seeded.uniform(-0.5, 0.5);
     const double sine = std::sqrt(1.0 - cosine * cosine);
@@ -93,17 +103,55 @@ Bundle fisheye_orbits(const Lab& lab, int rays, FisheyePath path) {
     }
     // Arithmetic only: what goes into transport must have the same bits everywhere.
     const double turn = 2.0 * pi<double>() / (L * L * L);
-    bundle.starts.push_back(y);
+    bundle.starts.push_back(scaled(y));
     if (path == FisheyePath::closed) {
-      bundle.spans.push_back(turn);
+      bundle.spans.push_back(R * turn);
       y[0] = 2.0 * pi<double>();
-      bundle.ends.push_back(y);
+      bundle.ends.push_back(scaled(y));
     } else {
-      bundle.spans.push_back(0.45 * turn);
-      bundle.ends.push_back(fisheye_state(y, bundle.spans.back()));
+      bundle.spans.push_back(R * (0.45 * turn));
+      bundle.ends.push_back(scaled(fisheye_state(y, 0.45 * turn)));
     }
   }
   // The start's own rounding leaves |p| = n to 2e-16 and lambda to 2e-16 of a turn.
+  bundle.truth_error = 2e-15;
+  return bundle;
+}
+
+Bundle luneburg_rays(const Lab& lab, int rays, double R) {
+  Bundle bundle;
+  const NamedValue radius{"R", R};
+  bundle.chart = lab.spacetime("luneburg", "cartesian", {&radius, 1});
+  bundle.length_unit = R;
+  SeededNumbers seeded(0x1944);  // the year of Luneburg's lectures
+  for (int i = 0; i < rays; ++i) {
+    const std::array<double, 3> along = normalised(seeded.direction());
+    const std::array<double, 3> across = normalised(cross(along, seeded.direction()));
+    const double height = seeded.uniform(0.1, 0.9);
+    const double rim = std::sqrt(1.0 - height * height);
+    medium_exact::Vector entry{};
+    PhaseState<double> start;
+    start[4] = -1.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      start[1 + k] = R * (height * across[k] - 2.0 * along[k]);
+      start[5 + k] = along[k];
+      entry[k] = R * (height * across[k] - rim * along[k]);
+    }
+    // Outside |p| = 1, so that lambda is the length.
+    const double quarter = 0.5 * pi<double>() * R;
+    const medium_exact::RayPoint focus = medium_exact::luneburg_ray(R, entry, along, quarter);
+    PhaseState<double> end;
+    end[0] = R * (2.0 - rim) + medium_exact::luneburg_optical_path(R, entry, along, quarter).value;
+    end[4] = start[4];
+    for (std::size_t k = 0; k < 3; ++k) {
+      end[1 + k] = focus.position[k];
+      end[5 + k] = focus.momentum[k];
+    }
+    bundle.starts.push_back(start);
+    bundle.spans.push_back(R * (2.0 - rim) + quarter);
+    bundle.ends.push_back(end);
+  }
+  // Round-off of the start, of the entry point and of the length in vacuum: a unit each on components below 3 R.
   bundle.truth_error = 2e-15;
   return bundle;
 }

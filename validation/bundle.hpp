@@ -33,7 +33,7 @@ struct Bundle {
   std::vector<PhaseState<double>> starts;
   std::vector<double> spans;             ///< affine length of each ray
   std::vector<PhaseState<double>> ends;  ///< the truth
-  double truth_error = 0.0;              ///< root mean square over rays and components
+  double truth_error = 0.0;              ///< root mean square over rays and components, lengths in their unit
   double length_unit = 1.0;
 
   [[nodiscard]] Flow flow() const;
@@ -45,9 +45,14 @@ enum class FisheyePath {
   closed,  ///< once around, back to the start
 };
 
-/// Light in Maxwell's fish-eye of radius 1. Every orbit is a great circle of the unit sphere in stereographic
-/// projection, run through uniformly in t; it closes after the affine length 2 pi / L^3 (L = |x cross p|, E = 1).
-[[nodiscard]] Bundle fisheye_orbits(const Lab& lab, int rays, FisheyePath path);
+/// Light in Maxwell's fish-eye of radius R. Every orbit is a great circle of the sphere in stereographic projection,
+/// run through uniformly in t; it closes after the affine length 2 pi R^4 / L^3 (L = |x cross p|, E = 1).
+[[nodiscard]] Bundle fisheye_orbits(const Lab& lab, int rays, FisheyePath path, double R = 1.0);
+
+/// Parallel light in a Luneburg lens of radius R, of a direction of its own for each ray: from a distance of 2 R
+/// through the rim at a height up to 0.9 R to the focus R d, a quarter of a turn of x = x0 cos(lambda/R) + R p0
+/// sin(lambda/R).
+[[nodiscard]] Bundle luneburg_rays(const Lab& lab, int rays, double R);
 
 /// The hole that bundles of light pass.
 struct KerrHole {

@@ -7,7 +7,9 @@
 // | --- | --- | --- |
 // | schwarzschild, kerr, ellis | angle swept in the equatorial plane, to the hole and back | closed form |
 // | kerr | end state of rays off the equator | self-convergence |
+// | luneburg | end state of parallel light at the focus | closed form |
 // | maxwell-fisheye | end state after 0.45 turns | closed form |
+// | ellipsoid | point of arrival of geodesics, over the poles too | GeographicLib's exact geodesics |
 // | minkowski | end state of straight rays | closed form |
 #pragma once
 
