@@ -118,11 +118,24 @@ struct RadiusRoot {
   }
 };
 
-struct HalfMass {
+struct SigmaWithoutSpin {
   template <class T>
   void operator()(const KerrSchildIngoing& kerr, const Vec4<T>& x, SymTensor4<T>& g) const {
-    const auto [r, sigma] = spheroidal_radius(x, T(kerr.a));
-    from_parts<T>(kerr.M * r / sigma, null_vector(x, r, kerr.a, kerr.a, kerr.a), g);
+    const T r = spheroidal_radius(x, T(kerr.a)).r;
+    from_parts<T>(2.0 * kerr.M / r, null_vector(x, r, kerr.a, kerr.a, kerr.a), g);
+  }
+};
+
+/// f in half, in either chart: half of what the metric adds to flat space.
+struct HalfMass {
+  template <class M, class T>
+  void operator()(const M&, const Vec4<T>&, SymTensor4<T>& g) const {
+    for (std::size_t mu = 0; mu < 4; ++mu) {
+      for (std::size_t nu = mu; nu < 4; ++nu) {
+        const double flat = mu != nu ? 0.0 : (mu == 0 ? -1.0 : 1.0);
+        g(mu, nu) = flat + 0.5 * (g(mu, nu) - flat);
+      }
+    }
   }
 };
 
@@ -161,6 +174,23 @@ std::vector<Fault> kerr_metric_faults() {
       slip_in<KerrSchildIngoing, HalfMass>("kerr-schild-half-mass", "f = M r / Sigma: half the mass", conformance),
       slip_in<KerrSchildOutgoing, IngoingForOutgoing>(
           "kerr-schild-outgoing-is-ingoing", "the outgoing chart with the ingoing chart's null vector", conformance),
+      // What rays alone must show, to someone who runs no conformance checks. Slips that move the horizon of a chart
+      // which is singular there are planted where all rays come back: others would creep up to it for a million steps.
+      slip_in<KerrSchildIngoing, SpinReversed>("kerr-rays-spin-reversed",
+                                               "rays in ingoing Kerr-Schild with -a: prograde light bent as retrograde",
+                                               "kerr/deflection"),
+      slip_in<KerrSchildOutgoing, HalfMass>("kerr-rays-half-mass", "f = M r / Sigma under a camera's rays",
+                                            "kerr/deflection"),
+      slip_in<BoyerLindquist, DraggingSign>("kerr-rays-dragging-sign", "g_tphi with its sign flipped, under the rays",
+                                            "kerr/charts"),
+      slip_in<BoyerLindquist, DeltaSpinSign>("kerr-rays-delta-spin-sign", "Delta = r^2 - 2 M r - a^2 under the rays",
+                                             "kerr/charts"),
+      slip_in<BoyerLindquist, PolarWithoutSpin>("kerr-rays-polar-without-spin",
+                                                "g_thetatheta = r^2: right on the equator only", "kerr/charts"),
+      slip_in<KerrSchildIngoing, SigmaWithoutSpin>(
+          "kerr-rays-sigma-without-spin", "f = 2 M / r: E and L_z stay, Carter's Q does not", "kerr/constants"),
+      slip_in<KerrSchildIngoing, RadiusRoot>("kerr-rays-radius-root",
+                                             "the radius from x^2 + y^2 + z^2 + a^2 under the rays", "kerr/constants"),
   };
 }
 

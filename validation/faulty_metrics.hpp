@@ -69,6 +69,7 @@ template <class M, class Slip>
           .settings = {}};
 }
 
+[[nodiscard]] std::vector<Fault> heuristic_faults();      // faulty_heuristics.cpp
 [[nodiscard]] std::vector<Fault> kerr_metric_faults();    // faulty_kerr.cpp
 [[nodiscard]] std::vector<Fault> static_metric_faults();  // faulty_static.cpp
 

@@ -1,4 +1,8 @@
 // Slips in the metrics that do not rotate.
+#include <algorithm>
+#include <array>
+#include <iterator>
+
 #include "metrics/ellipsoid.hpp"
 #include "metrics/ellis.hpp"
 #include "metrics/medium.hpp"
@@ -155,7 +159,9 @@ std::vector<Fault> static_metric_faults() {
 
 std::vector<Fault> metric_faults() {
   std::vector<Fault> list = kerr_metric_faults();
-  for (Fault& fault : static_metric_faults()) list.push_back(std::move(fault));
+  for (std::vector<Fault>& part : std::array{static_metric_faults(), heuristic_faults()}) {
+    std::move(part.begin(), part.end(), std::back_inserter(list));
+  }
   return list;
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,20 @@ TEST(MetricFaults, conformance_catches_each_that_names_it) {
     EXPECT_TRUE(result.caught) << result.id << ": " << result.note;
     EXPECT_TRUE(result.twin_passed) << result.id;
     EXPECT_GT(result.error, 10.0 * result.tolerance) << result.id;
+  }
+}
+
+TEST(MetricFaults, light_catches_each_that_names_a_case_of_rays) {
+  std::vector<Fault> planted = metric_faults();
+  std::erase_if(planted, by_conformance);
+  std::set<std::string> named;
+  for (const FaultResult& result : run_self_test(planted, cases(), SuiteSize::quick)) {
+    EXPECT_TRUE(result.caught) << result.id << ": " << result.note;
+    EXPECT_GT(result.error, 10.0 * result.tolerance) << result.id;
+    named.insert(result.case_id);
+  }
+  for (const char* id : {"kerr/deflection", "kerr/charts", "kerr/constants", "schwarzschild/deflection"}) {
+    EXPECT_TRUE(named.contains(id)) << id;
   }
 }
 
