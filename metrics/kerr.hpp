@@ -23,6 +23,7 @@
 
 #include "metrics/coordinates.hpp"
 #include "metrics/killing.hpp"
+#include "metrics/separable.hpp"
 
 namespace xpr {
 
@@ -55,6 +56,9 @@ struct KerrParameters {
   [[nodiscard]] constexpr T delta(const T& r) const {
     return square(r - M) - (T(M) - a) * (T(M) + a);
   }
+
+  /// For first integrals: metrics/separable.hpp.
+  [[nodiscard]] constexpr SeparatedLight separated() const { return {.mass = M, .spin = a, .charge_squared = 0.0}; }
 };
 
 /// T(r) and Phi(r): what the Kerr-Schild charts add to Boyer-Lindquist t and phi.

@@ -14,6 +14,7 @@
 
 #include "metrics/coordinates.hpp"
 #include "metrics/killing.hpp"
+#include "metrics/separable.hpp"
 
 namespace xpr {
 
@@ -26,6 +27,8 @@ struct SchwarzschildMass {
   [[nodiscard]] double horizon_radius() const { return 2.0 * M; }
   /// 0.5% outside the horizon: nearer to it than the photon orbit r = 3M.
   [[nodiscard]] double default_r_min() const { return 2.01 * M; }
+  /// For first integrals: metrics/separable.hpp.
+  [[nodiscard]] constexpr SeparatedLight separated() const { return {.mass = M, .spin = 0.0, .charge_squared = 0.0}; }
 
   /// 2 M ln|r/2M - 1|: what the Kerr-Schild charts add to Schwarzschild's t, given r - 2M.
   template <class T>

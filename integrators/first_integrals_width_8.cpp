@@ -1,0 +1,5 @@
+#include "integrators/first_integral_widths.hpp"
+
+namespace xpr::first_integrals {
+template void trace_lanes<8>(const Batch&);
+}  // namespace xpr::first_integrals
