@@ -1,16 +1,17 @@
 #include "metrics/kerr_polar_exact.hpp"
 
-#include <GeographicLib/EllipticFunction.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "metrics/carlson.hpp"
+#include "metrics/scalar/pack.hpp"
+
 namespace xpr::kerr_exact {
 namespace {
 
-using GeographicLib::EllipticFunction;
 using std::numbers::pi;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -129,9 +130,19 @@ void PolarMotion::set_one_side(const UnitConstants& constants) {
 }
 
 void PolarMotion::set_phase(const Phase& given) {
-  quarter_ = from_equator(1.0, 0.0, least_sine_squared_ / q0_);
   const double sine_squared = std::min(given.sine_squared, 1.0), cosine_squared = std::min(given.cosine_squared, 1.0);
-  begin_ = from_equator(given.sign * std::sqrt(sine_squared), cosine_squared, start_.sine * start_.sine / q0_);
+  // The quarter period and the start side by side in two lanes.
+  const auto lanes_of = [](double first, double second) {
+    Pack<2> both(first);
+    set_lane(both, 1, second);
+    return both;
+  };
+  const auto both = from_equator(lanes_of(1.0, given.sign * std::sqrt(sine_squared)), lanes_of(0.0, cosine_squared),
+                                 lanes_of(least_sine_squared_ / q0_, start_.sine * start_.sine / q0_));
+  const auto part = [&](int i) {
+    return Integrals<double>{lane(both.tau, i), lane(both.sine_squared, i), lane(both.pole, i)};
+  };
+  quarter_ = part(0), begin_ = part(1);
   if (given.falling) {
     begin_.tau = 2.0 * quarter_.tau - begin_.tau;
     begin_.sine_squared = 2.0 * quarter_.sine_squared - begin_.sine_squared;
@@ -146,16 +157,22 @@ void PolarMotion::set_phase(const Phase& given) {
   begin_error_ = wrong / std::sqrt(w_squared_ + mu_ * sine_squared);
 }
 
-PolarMotion::Integrals PolarMotion::from_equator(double sine, double cosine_squared, double pole_factor) const {
-  const double x = cosine_squared * w_squared_, y = w_squared_ + mu_ * sine * sine, z = w_squared_;
-  const double cube = sine * sine * sine * w_squared_ / 3.0;
-  Integrals result;
-  result.tau = sine * EllipticFunction::RF(x, y, z);
-  if (swing_ != 0.0) result.sine_squared = cube * EllipticFunction::RD(x, y, z);
+template <class T>
+PolarMotion::Integrals<T> PolarMotion::from_equator(const T& sine, const T& cosine_squared,
+                                                    const T& pole_factor) const {
+  const T sine_squared = sine * sine;
+  // Without L there is no pole to integrate; its factor may vanish then.
+  const bool pole = lambda_ != 0.0 && n_ != 0.0;
+  const T ratio = mu_ / w_squared_ * sine_squared;
+  const auto carlson_integrals =
+      carlson::first_second_third<T>(cosine_squared, 1.0 + ratio, T(1.0), pole ? pole_factor : T(1.0));
+  const double scale = 1.0 / std::sqrt(w_squared_);
+  const T cube = scale / 3.0 * (sine * sine_squared);
+  Integrals<T> result;
+  result.tau = scale * sine * carlson_integrals.f;
+  result.sine_squared = cube * carlson_integrals.d;
   result.pole = result.tau;
-  if (lambda_ != 0.0 && n_ != 0.0) {
-    result.pole += n_ * cube * EllipticFunction::RJ(x, y, z, pole_factor * w_squared_);
-  }
+  if (pole) result.pole = result.tau + n_ * cube * carlson_integrals.j;
   return result;
 }
 
@@ -165,66 +182,81 @@ double PolarMotion::half_period() const {
 }
 
 PolarEnd PolarMotion::after(double mino, double mino_error) const {
+  if (kind_ == PolarKind::to_equator) return to_equator(mino, mino_error);
+  if (kind_ == PolarKind::at_rest) return at_rest(mino, mino_error);
+  const double half = 2.0 * quarter_.tau, phase = begin_.tau + mino;
+  const double halves = std::floor(phase / half + 0.5), rest = phase - halves * half;
+  const double omega = std::sqrt(w_squared_ + mu_), complementary = std::sqrt(w_squared_) / omega;
+  const Jacobi j = jacobi(omega * rest, complementary);
+  const Reached at{
+      .phase = phase, .halves = halves, .sine = complementary * j.sn / j.dn, .cosine_squared = square(j.cn / j.dn)};
+  PolarEnd end;
+  set_place(end, at);
+  set_turns(end, at);
+  const Integrals<double> last = from_equator(at.sine, at.cosine_squared, square(end.sine) / q0_);
+  const double sine_squared = 2.0 * halves * quarter_.sine_squared + last.sine_squared - begin_.sine_squared;
+  const double pole = 2.0 * halves * quarter_.pole + last.pole - begin_.pole;
+  end.azimuth = lambda_ == 0.0 ? pi * end.axis_crossings : lambda_ / q0_ * pole;
+  end.cosine_squared = base_ * mino + swing_ * sine_squared;
+  const double pole_size = 2.0 * (std::abs(halves) + 1.0) * quarter_.pole + std::abs(last.pole) + std::abs(begin_.pole);
+  set_errors(end, at, mino, mino_error, pole_size);
+  return end;
+}
+
+void PolarMotion::set_place(PolarEnd& end, const Reached& at) const {
+  const bool odd = std::fmod(at.halves, 2.0) != 0.0;
+  const double root_rate = std::sqrt(w_squared_ + mu_ * square(at.sine));
+  double rate;  // |dc/dtau|
+  end.sine = std::sqrt(least_sine_squared_ + swing_ * at.cosine_squared);
+  if (kind_ == PolarKind::through_equator) {
+    end.cosine = (odd ? -1.0 : 1.0) * std::sqrt(u_plus_) * at.sine;
+    end.direction = odd ? -1 : 1;
+    rate = std::sqrt(swing_ * at.cosine_squared) * root_rate;
+  } else {
+    const double size = std::sqrt(base_ + swing_ * square(at.sine));
+    end.cosine = std::copysign(size, start_.cosine);
+    end.direction = (at.sine >= 0.0) == (start_.cosine > 0.0) ? 1 : -1;
+    rate = swing_ * std::abs(at.sine) * std::sqrt(at.cosine_squared) * root_rate / size;
+  }
+  end.rate = end.sine > 0.0 ? rate / end.sine : root_rate;
+}
+
+/// A passage is counted when the phase comes to it, so that a start at a turning point does not count it.
+void PolarMotion::set_turns(PolarEnd& end, const Reached& at) const {
+  const double half = 2.0 * quarter_.tau;
+  const int greatest = static_cast<int>(at.halves - std::floor(begin_.tau / half + 0.5));
+  const int least =
+      kind_ == PolarKind::one_side ? static_cast<int>(std::floor(at.phase / half) - std::floor(begin_.tau / half)) : 0;
+  // For L = 0 the greatest |c| is 1: the axis, which is crossed.
+  end.turns = (lambda_ == 0.0 ? 0 : greatest) + least;
+  end.axis_crossings = lambda_ == 0.0 ? greatest : 0;
+}
+
+/// Whatever the phases lose shifts tau; the rates at both ends carry that over.
+void PolarMotion::set_errors(PolarEnd& end, const Reached& at, double mino, double mino_error, double pole_size) const {
+  const double sizes = std::abs(begin_.tau) + mino + 2.0 * (std::abs(at.halves) + 1.0) * quarter_.tau;
+  const double shift = mino_error + 4.0 * epsilon * sizes;
+  end.theta_error = std::min((shift + begin_error_) * end.rate + 8.0 * epsilon, pi);
+  end.cosine_squared_error = 8.0 * epsilon * (sizes + mino) + shift + 2.0 * begin_error_;
+  if (lambda_ == 0.0) {
+    end.azimuth_error = 4.0 * epsilon * end.azimuth;
+    return;
+  }
+  const double end_rate = std::abs(lambda_) / square(end.sine), begin_rate = std::abs(lambda_) / square(start_.sine);
+  end.azimuth_error = 8.0 * epsilon * std::abs(lambda_) / q0_ * pole_size + (shift + begin_error_) * end_rate +
+                      begin_error_ * begin_rate;
+}
+
+PolarEnd PolarMotion::at_rest(double mino, double mino_error) const {
   PolarEnd end;
   end.direction = start_.direction;
-  if (kind_ == PolarKind::to_equator) return to_equator(mino, mino_error);
-  if (kind_ == PolarKind::at_rest) {
-    end.cosine = start_.cosine, end.sine = start_.sine;
-    const double rate = start_.sine > 0.0 ? lambda_ / (start_.sine * start_.sine) : 0.0;
-    end.azimuth = rate * mino;
-    end.cosine_squared = start_.cosine * start_.cosine * mino;
-    end.azimuth_error = std::abs(rate) * (mino_error + 4.0 * epsilon * mino);
-    end.cosine_squared_error = mino_error + 4.0 * epsilon * mino;
-    end.theta_error = 2.0 * epsilon;
-    return end;
-  }
-  const double half = 2.0 * quarter_.tau;
-  const double phase = begin_.tau + mino;
-  const double halves = std::floor(phase / half + 0.5), halves_before = std::floor(begin_.tau / half + 0.5);
-  const double rest = phase - halves * half;
-  const double omega_squared = w_squared_ + mu_, omega = std::sqrt(omega_squared);
-  const double complementary = std::sqrt(w_squared_ / omega_squared);
-  const Jacobi j = jacobi(omega * rest, complementary);
-  const double sine = complementary * j.sn / j.dn, cosine_squared = j.cn / j.dn * (j.cn / j.dn);
-  const double end_sine_squared = least_sine_squared_ + swing_ * cosine_squared;
-  const bool odd = std::fmod(halves, 2.0) != 0.0;
-  end.sine = std::sqrt(end_sine_squared);
-  if (kind_ == PolarKind::through_equator) {
-    end.cosine = (odd ? -1.0 : 1.0) * std::sqrt(u_plus_) * sine;
-    end.direction = odd ? -1 : 1;
-  } else {
-    end.cosine = std::copysign(std::sqrt(base_ + swing_ * sine * sine), start_.cosine);
-    end.direction = (rest >= 0.0) == (start_.cosine > 0.0) ? 1 : -1;
-  }
-  const int highest_passes = static_cast<int>(halves - halves_before);
-  const int lowest_passes =
-      kind_ == PolarKind::one_side ? static_cast<int>(std::floor(phase / half) - std::floor(begin_.tau / half)) : 0;
-  end.turns = (lambda_ == 0.0 ? 0 : highest_passes) + lowest_passes;
-  end.axis_crossings = lambda_ == 0.0 ? highest_passes : 0;
-
-  const Integrals last = from_equator(sine, cosine_squared, end_sine_squared / q0_);
-  const double sine_squared_sum = 2.0 * halves * quarter_.sine_squared + last.sine_squared - begin_.sine_squared;
-  const double pole_sum = 2.0 * halves * quarter_.pole + last.pole - begin_.pole;
-  end.azimuth = lambda_ == 0.0 ? pi * end.axis_crossings : lambda_ / q0_ * pole_sum;
-  end.cosine_squared = base_ * mino + swing_ * sine_squared_sum;
-
-  // Rounding: tau is shifted by what the phases lose; the rates at both ends carry that over.
-  const double sizes = std::abs(begin_.tau) + mino + (std::abs(halves) + 1.0) * half;
-  const double shift = mino_error + 4.0 * epsilon * sizes;
-  const double root_rate = std::sqrt(w_squared_ + mu_ * sine * sine);
-  const double swing_rate = kind_ == PolarKind::through_equator
-                                ? std::sqrt(swing_ * cosine_squared) * root_rate
-                                : swing_ * std::abs(sine) * std::sqrt(cosine_squared) * root_rate /
-                                      std::max(std::abs(end.cosine), std::sqrt(base_));
-  end.rate = end_sine_squared > 0.0 ? swing_rate / end.sine : root_rate;
-  end.theta_error = std::min((shift + begin_error_) * end.rate + 8.0 * epsilon, pi);
-  const double pole_size = 2.0 * (std::abs(halves) + 1.0) * quarter_.pole + std::abs(last.pole) + std::abs(begin_.pole);
-  const double end_rate = end_sine_squared > 0.0 ? std::abs(lambda_) / end_sine_squared : 0.0;
-  const double begin_rate = start_.sine > 0.0 ? std::abs(lambda_) / (start_.sine * start_.sine) : 0.0;
-  end.azimuth_error = lambda_ == 0.0 ? 4.0 * epsilon * end.azimuth
-                                     : 8.0 * epsilon * std::abs(lambda_) / q0_ * pole_size +
-                                           (shift + begin_error_) * end_rate + begin_error_ * begin_rate;
-  end.cosine_squared_error = 8.0 * epsilon * (sizes + mino) + shift + 2.0 * begin_error_;
+  end.cosine = start_.cosine, end.sine = start_.sine;
+  const double rate = lambda_ == 0.0 ? 0.0 : lambda_ / square(start_.sine);
+  end.azimuth = rate * mino;
+  end.cosine_squared = square(start_.cosine) * mino;
+  end.theta_error = 2.0 * epsilon;
+  end.cosine_squared_error = mino_error + 4.0 * epsilon * mino;
+  end.azimuth_error = std::abs(rate) * end.cosine_squared_error;
   return end;
 }
 

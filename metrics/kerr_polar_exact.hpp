@@ -49,8 +49,9 @@ class PolarMotion {
 
  private:
   /// tau, and the integrals of sin^2 psi dtau and dtau/(1 - n sin^2 psi), from psi = 0.
+  template <class T>
   struct Integrals {
-    double tau = 0.0, sine_squared = 0.0, pole = 0.0;
+    T tau{}, sine_squared{}, pole{};
   };
   /// The start as a phase: both squares, since either may be small; `falling`: on the way back to psi = pi.
   struct Phase {
@@ -59,8 +60,18 @@ class PolarMotion {
     double sign = 1.0;
     bool falling = false;
   };
-  [[nodiscard]] Integrals from_equator(double sine, double cosine_squared, double pole_factor) const;
+  template <class T>
+  [[nodiscard]] Integrals<T> from_equator(const T& sine, const T& cosine_squared, const T& pole_factor) const;
+  /// The phase after some Mino time: halves pi plus an angle between -pi/2 and pi/2.
+  struct Reached {
+    double phase, halves;
+    double sine, cosine_squared;  ///< of that angle
+  };
   [[nodiscard]] PolarEnd to_equator(double mino, double mino_error) const;
+  [[nodiscard]] PolarEnd at_rest(double mino, double mino_error) const;
+  void set_place(PolarEnd& end, const Reached& at) const;
+  void set_turns(PolarEnd& end, const Reached& at) const;
+  void set_errors(PolarEnd& end, const Reached& at, double mino, double mino_error, double pole_size) const;
   void set_through_equator(const UnitConstants& constants);
   void set_one_side(const UnitConstants& constants);
   void set_phase(const Phase& given);
@@ -72,8 +83,8 @@ class PolarMotion {
   double least_sine_squared_ = 0.0;  ///< 1 - u+
   double w_squared_ = 0.0, mu_ = 0.0, n_ = 0.0, q0_ = 1.0;
   double base_ = 0.0, swing_ = 0.0;  ///< c^2 = base + swing sin^2 psi
-  Integrals quarter_;                ///< from psi = 0 to pi/2
-  Integrals begin_;                  ///< from psi = 0 to the start
+  Integrals<double> quarter_;        ///< from psi = 0 to pi/2
+  Integrals<double> begin_;          ///< from psi = 0 to the start
   double begin_error_ = 0.0;         ///< of begin_.tau, from the start's cancellation
 };
 

@@ -15,6 +15,9 @@
 #include <complex>
 #include <limits>
 
+#include "metrics/scalar/elementary.hpp"
+#include "metrics/scalar/pack.hpp"
+
 namespace xpr::kerr_exact {
 namespace {
 
@@ -27,17 +30,22 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double longest_over_distance = 3.8;
 constexpr double longest_panel = 2.7;
 
-double sinh_of(double w) {
-  if (w > 0.5) {
-    const double grown = std::exp(w);
-    return 0.5 * (grown - 1.0 / grown);
-  }
-  const double x = w * w;  // to w^17/17!: 1e-20 of w at 0.5
-  return w * (1.0 +
-              x / 6.0 *
-                  (1.0 + x / 20.0 *
-                             (1.0 + x / 42.0 *
-                                        (1.0 + x / 72.0 * (1.0 + x / 110.0 * (1.0 + x / 156.0 * (1.0 + x / 210.0)))))));
+using Lanes = Pack<4>;
+
+/// sinh w for w >= 0, to the last digits of small w too.
+Lanes sinh_of(const Lanes& w) {
+  const Lanes x = w * w;  // the series to w^17/17! leaves 1e-20 of w at 0.5
+  const Lanes small =
+      w *
+      (1.0 + x * (1.0 / 6.0) *
+                 (1.0 + x * (1.0 / 20.0) *
+                            (1.0 + x * (1.0 / 42.0) *
+                                       (1.0 + x * (1.0 / 72.0) *
+                                                  (1.0 + x * (1.0 / 110.0) *
+                                                             (1.0 + x * (1.0 / 156.0) * (1.0 + x * (1.0 / 210.0))))))));
+  if (all(w <= Lanes(0.5))) return small;
+  const Lanes grown = exp(w);
+  return select(w > Lanes(0.5), 0.5 * (grown - 1.0 / grown), small);
 }
 
 /// asinh(to) - asinh(from) for to - from = change, without the cancellation.
@@ -59,28 +67,22 @@ struct Stretch {
   // At the base, since all of them may be tiny together next to an extremal horizon: 1 - r+ u, 1 - r- u, n, and where
   // r1 and r2 are real 1 - r1 u and 1 - r2 u.
   double outer_factor = 1.0, inner_factor = 1.0, n = 2.0, factor1 = 1.0, factor2 = 1.0;
+  double sinh_twice_base = 0.0, cosh_twice_base = 1.0, exp_base = 1.0;  ///< of y_base
 
-  /// u - u_base.
-  [[nodiscard]] double offset(double w) const {
-    switch (kind) {
-      case PairKind::real_pair:
-        return side * size * sinh_of(w) * sinh_of(2.0 * y_base + w);
-      case PairKind::complex_pair:
-        return 2.0 * side * size * std::cosh(y_base + 0.5 * side * w) * sinh_of(0.5 * w);
-      default:
-        return side * w;
+  /// u - u_base, and |du/dy|, which is sqrt P over the square root of the rest.
+  struct Place {
+    Lanes offset, slope;
+  };
+  [[nodiscard]] Place at(const Lanes& w) const {
+    if (kind == PairKind::straight) return {side * w, 1.0};
+    if (kind == PairKind::real_pair) {
+      // From sinh w alone: sinh(2 y_base + w) and sinh(2 y_base + 2 w) are sums of positive terms.
+      const Lanes sine = sinh_of(w), cosine = sqrt(1.0 + sine * sine);
+      return {side * size * sine * (sinh_twice_base * cosine + cosh_twice_base * sine),
+              size * (sinh_twice_base * (1.0 + 2.0 * sine * sine) + 2.0 * cosh_twice_base * sine * cosine)};
     }
-  }
-  /// |du/dy|, which is sqrt P over the square root of the rest.
-  [[nodiscard]] double slope(double w) const {
-    switch (kind) {
-      case PairKind::real_pair:
-        return size * sinh_of(2.0 * (y_base + w));
-      case PairKind::complex_pair:
-        return size * std::cosh(y_base + side * w);
-      default:
-        return 1.0;
-    }
+    const Lanes middle = exp_base * exp(Lanes(0.5 * side * w)), end = middle * middle * (1.0 / exp_base);
+    return {side * size * (middle + 1.0 / middle) * sinh_of(0.5 * w), 0.5 * size * (end + 1.0 / end)};
   }
 };
 
@@ -89,41 +91,50 @@ struct Sums {
   double tau = 0.0, x = 0.0, ux = 0.0, y = 0.0, uy = 0.0;
 };
 
+/// The rule's nodes and weights on (-1, 1), all of them.
+struct Nodes {
+  std::array<double, 20> node, weight;
+
+  Nodes() {
+    for (std::size_t i = 0; i < 10; ++i) {
+      node[i] = -Rule::abscissa()[i], node[10 + i] = Rule::abscissa()[i];
+      weight[i] = weight[10 + i] = Rule::weights()[i];
+    }
+  }
+};
+
+double sum_of_lanes(const Lanes& x) { return (lane(x, 0) + lane(x, 1)) + (lane(x, 2) + lane(x, 3)); }
+
 Sums over_panel(const RadialMotion& m, const Stretch& stretch, double from, double to) {
+  static const Nodes rule;
   const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
   const double s = static_cast<double>(m.s), q = static_cast<double>(m.q);
   const double r1 = static_cast<double>(m.r1), r2 = static_cast<double>(m.r2);
-  const double r_outer = m.outer_horizon(), r_inner = m.a * m.a / r_outer;
+  const double r_outer = m.outer_horizon(), r_inner = m.a * m.a / r_outer, a_squared = m.a * m.a;
   // du = slope dy and f = p (slope/2)^2 for a real pair, p slope^2 for a conjugate one.
   const double lead = stretch.kind == PairKind::straight    ? 1.0
                       : stretch.kind == PairKind::real_pair ? 0.25 * static_cast<double>(m.p)
                                                             : static_cast<double>(m.p);
-  Sums sums;
-  const auto add = [&](double node, double weight) {
-    const double w = middle + half * node;
-    const double offset = stretch.offset(w), u = stretch.u_base + offset;
-    const double rest =
-        std::sqrt(lead * (m.far_roots_real ? (stretch.factor1 - r1 * offset) * (stretch.factor2 - r2 * offset)
-                                           : 1.0 + u * (s + u * q)));
-    const double root_P = stretch.slope(w) * rest;
-    const double dtau = half * weight / rest;
-    const double D = (stretch.outer_factor - r_outer * offset) * (stretch.inner_factor - r_inner * offset);
-    const double n = stretch.n - m.a * m.lambda * offset;
-    const double x = dtau * (m.A + u * (m.B + u * m.C)) / (1.0 + root_P);
-    double y = dtau;
+  Lanes tau = 0.0, sum_x = 0.0, sum_ux = 0.0, sum_y = 0.0, sum_uy = 0.0;
+  for (std::size_t i = 0; i < rule.node.size(); i += 4) {
+    const auto [offset, slope] = stretch.at(middle + half * Lanes::load(&rule.node[i]));
+    const Lanes u = stretch.u_base + offset;
+    const Lanes other =
+        m.far_roots_real ? (stretch.factor1 - r1 * offset) * (stretch.factor2 - r2 * offset) : 1.0 + u * (s + u * q);
+    const Lanes rest = sqrt(lead * other), root_P = slope * rest;
+    const Lanes dtau = half * Lanes::load(&rule.weight[i]) / rest;
+    const Lanes D = (stretch.outer_factor - r_outer * offset) * (stretch.inner_factor - r_inner * offset);
+    const Lanes n = stretch.n - m.a * m.lambda * offset;
+    const Lanes x = dtau * (m.A + u * (m.B + u * m.C)) / (1.0 + root_P);
+    Lanes y = dtau * n / D;
     if (stretch.subtract_horizons) {
-      const double c = 2.0 - m.a * m.a * u;
-      y *= u * (m.a * (m.a - m.lambda) * (n + c * (D + u * n)) + u * c * c * m.K) / (n + c * root_P);
-    } else {
-      y *= n / D;
+      const Lanes c = 2.0 - a_squared * u;
+      const Lanes E = u * (m.a * (m.a - m.lambda) * (n + c * (D + u * n)) + u * c * c * m.K);
+      y = dtau * E / (n + c * root_P);
     }
-    sums.tau += dtau, sums.x += x, sums.ux += u * x, sums.y += y, sums.uy += u * y;
-  };
-  for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
-    add(Rule::abscissa()[i], Rule::weights()[i]);
-    add(-Rule::abscissa()[i], Rule::weights()[i]);
+    tau += dtau, sum_x += x, sum_ux += u * x, sum_y += y, sum_uy += u * y;
   }
-  return sums;
+  return {sum_of_lanes(tau), sum_of_lanes(sum_x), sum_of_lanes(sum_ux), sum_of_lanes(sum_y), sum_of_lanes(sum_uy)};
 }
 
 Sums over_stretch(const RadialMotion& m, const Stretch& stretch) {
@@ -218,6 +229,8 @@ Stretch beside_pair(const RadialMotion& m, const Wide& r_far, const Wide& r_near
                   .after = 1e300,
                   .subtract_horizons = subtract};
   set_base(m, stretch, r_base);
+  stretch.sinh_twice_base = 2.0 * lift * std::sqrt(1.0 + lift * lift);
+  stretch.cosh_twice_base = 1.0 + 2.0 * lift * lift;
   if (subtract) {  // n + c sqrt P has a zero where sqrt P is negative, beyond the turning point
     const double u = stretch.u_base, s = static_cast<double>(m.s), q = static_cast<double>(m.q);
     const double rest = std::sqrt(static_cast<double>(m.p) * (1.0 + u * (s + u * q)));
@@ -246,6 +259,7 @@ Stretch across(const RadialMotion& m, const Wide& r_far, const Wide& r_near) {
   const double lift = (stretch.u_base - 0.5 * static_cast<double>(m.s / m.p)) / sigma;
   stretch.size = sigma;
   stretch.y_base = std::asinh(lift);
+  stretch.exp_base = std::exp(stretch.y_base);
   stretch.length = asinh_difference(lift - change / sigma, lift, change / sigma);
   set_far_roots(m, stretch, lift);
   return stretch;

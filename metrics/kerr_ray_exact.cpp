@@ -186,6 +186,22 @@ RadialSums KerrRay::radial_path(const Wide& r, bool via_turn) const {
   return radial_sign_ < 0 ? straight_leg(radial_, r0_, r) : straight_leg(radial_, r, r0_);
 }
 
+// No further than to the turning point; a radius just beyond it is the turning point.
+bool KerrRay::comes_to(Wide& r, int radial_turns) const {
+  const bool via_turn = radial_turns == 1;
+  if (radial_turns < 0 || radial_turns > 1 || (via_turn && !turns_)) return false;
+  if (turns_ || fate_ == Fate::asymptotic) {
+    const Wide& turn = radial_sign_ < 0 ? radial_.r4 : radial_.r3;
+    const double beyond = radial_sign_ * static_cast<double>(r - turn);
+    if (beyond > last_places * static_cast<double>(r)) return false;
+    if (beyond >= 0.0) {
+      if (fate_ == Fate::asymptotic) return false;
+      r = turn;
+    }
+  }
+  return via_turn || radial_sign_ * static_cast<double>(r - r0_) >= 0.0;
+}
+
 Arrival KerrRay::at_radius(double r_given, int radial_turns) const {
   Wide r = over(r_given, mass_);
   Arrival arrival;
@@ -194,31 +210,29 @@ Arrival KerrRay::at_radius(double r_given, int radial_turns) const {
     throw std::domain_error(
         fmt::format("r = {}, needs a finite r > r+ = {}", r_given, mass_ * radial_.outer_horizon()));
   }
+  if (!comes_to(r, radial_turns)) return arrival;
   const bool via_turn = radial_turns == 1;
-  if (radial_turns < 0 || radial_turns > 1 || (via_turn && !turns_)) return arrival;
-  if (turns_ || fate_ == Fate::asymptotic) {
-    // Towards the turning point, and no further than to it.
-    const Wide& turn = radial_sign_ < 0 ? radial_.r4 : radial_.r3;
-    const double beyond = radial_sign_ * static_cast<double>(r - turn);
-    if (beyond > last_places * static_cast<double>(r)) return arrival;
-    if (beyond >= 0.0) {
-      if (fate_ == Fate::asymptotic) return arrival;
-      r = turn;
-    }
-  }
-  if (!via_turn && radial_sign_ * static_cast<double>(r - r0_) < 0.0) return arrival;
-
   const RadialSums radial = radial_path(r, via_turn);
   const PolarEnd polar = polar_.after(radial.mino, radial.mino_error);
-  const double a2 = radial_.a * radial_.a;
-  const double polar_sense = polar.axis_crossings > 0 ? 1.0 : orientation_;
   arrival.reached = true;
   arrival.r = mass_ * static_cast<double>(r);
   arrival.radial_sign = via_turn ? -radial_sign_ : radial_sign_;
   arrival.polar_sign = -polar.direction;
+  arrival.radial_turns = radial_turns;
+  arrival.polar_turns = polar.turns;
+  arrival.axis_crossings = polar.axis_crossings;
   arrival.cos_theta = polar.cosine;
   arrival.sin_theta = polar.sine;
   arrival.theta = {std::atan2(polar.sine, polar.cosine), polar.theta_error};
+  set_sums(arrival, radial, polar);
+  arrival.direction_error = std::min(std::hypot(polar.theta_error, polar.sine * arrival.phi.error), std::numbers::pi);
+  return arrival;
+}
+
+void KerrRay::set_sums(Arrival& arrival, const RadialSums& radial, const PolarEnd& polar) const {
+  const double a2 = radial_.a * radial_.a;
+  // A crossing of the axis adds pi whatever the sense of rotation.
+  const double polar_sense = polar.axis_crossings > 0 ? 1.0 : orientation_;
   const auto with_rounding = [](double value, double error) {
     return ExactValue{value, error + 2.0 * epsilon * std::abs(value)};
   };
@@ -229,11 +243,6 @@ Arrival KerrRay::at_radius(double r_given, int radial_turns) const {
   arrival.affine = with_rounding(mass_ * (radial.affine + a2 * polar.cosine_squared),
                                  mass_ * (radial.affine_error + a2 * polar.cosine_squared_error));
   arrival.mino = with_rounding(radial.mino / mass_, radial.mino_error / mass_);
-  arrival.direction_error = std::min(std::hypot(polar.theta_error, polar.sine * arrival.phi.error), std::numbers::pi);
-  arrival.radial_turns = radial_turns;
-  arrival.polar_turns = polar.turns;
-  arrival.axis_crossings = polar.axis_crossings;
-  return arrival;
 }
 
 Arrival KerrRay::at_end(double r_out, double r_in) const {

@@ -92,7 +92,9 @@ class KerrRay {
   struct Prepared;
   explicit KerrRay(const Prepared& prepared);
   void set_fate();
+  [[nodiscard]] bool comes_to(Wide& r, int radial_turns) const;
   [[nodiscard]] RadialSums radial_path(const Wide& r, bool via_turn) const;
+  void set_sums(Arrival& arrival, const RadialSums& radial, const PolarEnd& polar) const;
 
   double mass_;
   double orientation_;  ///< sign of a

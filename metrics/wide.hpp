@@ -19,6 +19,16 @@ struct Wide {
 };
 
 namespace wide_detail {
+/// x y as high + low, exactly: the same bits with and without the machine's fused multiply-add.
+[[nodiscard]] constexpr Wide product(double x, double y) {
+#ifdef __FMA__
+  const double high = x * y;
+  return {high, __builtin_fma(x, y, -high)};
+#else
+  const auto p = double_double::product(x, y);
+  return {p.high, p.low};
+#endif
+}
 [[nodiscard]] constexpr Wide tidy(double high, double low) {
   const auto s = double_double::ordered_sum(high, low);
   return {s.high, s.low};
@@ -34,7 +44,7 @@ namespace wide_detail {
 }
 [[nodiscard]] constexpr Wide operator-(const Wide& x, const Wide& y) { return x + (-y); }
 [[nodiscard]] constexpr Wide operator*(const Wide& x, const Wide& y) {
-  const auto p = double_double::product(x.high, y.high);
+  const Wide p = wide_detail::product(x.high, y.high);
   return wide_detail::tidy(p.high, p.low + (x.high * y.low + x.low * y.high));
 }
 [[nodiscard]] constexpr Wide operator/(const Wide& x, const Wide& y) {
@@ -49,8 +59,7 @@ namespace wide_detail {
 [[nodiscard]] inline Wide sqrt(const Wide& x) {
   if (!(x.high > 0.0)) return 0.0;
   const double root = std::sqrt(x.high);
-  const auto squared = double_double::product(root, root);
-  const Wide rest = x - Wide(squared.high, squared.low);
+  const Wide rest = x - wide_detail::product(root, root);
   return wide_detail::tidy(root, static_cast<double>(rest) / (2.0 * root));
 }
 
