@@ -196,6 +196,8 @@ class Lanes {
     rest_at(series_, h, state_);
     state_.u = u;
     state_.u_rate = u_rate;
+    restore_radial_integral(stopped);
+    restore_direction();
     mino_ = select(last & !stopped, T(batch_.settings.mino_max), mino_ + h);
     steps_ = steps_ + 1.0;
     count_windings(y_before);
@@ -215,6 +217,33 @@ class Lanes {
       unload(i, status);
       load_next(i);
     }
+  }
+
+  /// Moves (u, u') back onto u'^2 = U(u) the shortest way, u counted in units of the ray's size. The integral holds the
+  /// ray's constants: off it a ray that lingers near a spherical orbit leaves as one of other constants would. Next to
+  /// a double root, where U and U' vanish together, there is no such way and the state stays.
+  void restore_radial_integral(const Bool& stopped) {
+    const T off = square(state_.u_rate) - radial_potential(state_.u);
+    const T force = radial_force(state_.u);
+    const T scaled = force / constants_.size_squared;
+    const T gradient = scaled * force + square(state_.u_rate);
+    const T change = select((abs(off) < 0.01 * gradient) & !stopped, 0.5 * off / gradient, T(0.0));
+    state_.u = state_.u + change * scaled;
+    state_.u_rate = state_.u_rate - change * state_.u_rate;
+  }
+
+  /// Moves n back onto the unit sphere and n' onto its tangent plane and to its speed, to first order in the errors.
+  void restore_direction() {
+    auto& n = state_.n;
+    auto& rate = state_.n_rate;
+    const T shrink = 1.5 - 0.5 * (square(n[0]) + square(n[1]) + square(n[2]));
+    for (T& x : n) x = shrink * x;
+    const T along = n[0] * rate[0] + n[1] * rate[1] + n[2] * rate[2];
+    for (std::size_t i = 0; i < 3; ++i) rate[i] = rate[i] - along * n[i];
+    const T speed_sq = constants_.polar_constant + constants_.spin_squared * square(n[2]);
+    const T off = square(rate[0]) + square(rate[1]) + square(rate[2]) - speed_sq;
+    const T change = select(abs(off) < 0.01 * speed_sq, 0.5 * off / speed_sq, T(0.0));
+    for (T& x : rate) x = x - change * x;
   }
 
   /// Closes the books on a branch where the radial motion has turned.
@@ -281,11 +310,16 @@ class Lanes {
            square(u) * (constants_.c2 + u * ((2.0 / 3.0) * constants_.three_halves_c3 + 0.5 * u * constants_.twice_c4));
   }
 
+  /// U'/2.
+  [[nodiscard]] T radial_force(const T& u) const {
+    return u * (constants_.c2 + u * (constants_.three_halves_c3 + u * constants_.twice_c4));
+  }
+
   /// The tau at which each lane of `met` has u = stop, to round-off: tau as a function of u expanded about the stop,
   /// where u' and u'' are known, corrects the guess by three orders a time. Other lanes are left as they are.
   [[nodiscard]] T meet(const T& stop, const Bool& out, const T& from, const T& h, const Bool& met) {
     const T slope_sq = radial_potential(stop);
-    const T force = stop * (constants_.c2 + stop * (constants_.three_halves_c3 + stop * constants_.twice_c4));
+    const T force = radial_force(stop);
     const T size = sqrt(max(slope_sq, T(0.0)));
     const T slope = select(out, -size, size);
     const T bend = 0.5 * force / slope_sq;

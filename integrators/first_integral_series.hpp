@@ -231,7 +231,7 @@ template <class T>
   return bits::power_of_two(whole) * (1.0 + (scaled - whole));
 }
 
-/// The step for which the last two terms of every series fall to half the tolerance: of n and of the azimuth
+/// The step for which the last two terms of every series fall to the tolerance: of n and of the azimuth
 /// absolutely, of u and t in units of the ray's size.
 template <class T, int N, bool Timed>
 [[nodiscard]] T step_size(const Constants<T>& c, const Series<T, N, Timed>& series, double tol) {
@@ -242,8 +242,8 @@ template <class T, int N, bool Timed>
     if constexpr (Timed) sum = sum + scale * (square(series.time[k - 1]) / c.size_squared);
     return sum + 1e-250;  // where nothing changes the step is long, not infinite
   };
-  const T last = rough_root(T(0.25 * tol * tol) / term_squared(N), 2.0 * N);
-  const T before = rough_root(T(0.25 * tol * tol) / term_squared(N - 1), 2.0 * (N - 1));
+  const T last = rough_root(T(tol * tol) / term_squared(N), 2.0 * N);
+  const T before = rough_root(T(tol * tol) / term_squared(N - 1), 2.0 * (N - 1));
   return min(last, before);
 }
 

@@ -2,7 +2,7 @@
 //
 // For spacetimes whose light separates (metrics/separable.hpp): radius and direction are integrated in Mino time by a
 // Taylor method of high order, azimuth and time as quadratures of the same series. A ray from 1000 M past a hole and
-// back takes about ten steps. Each ray has its own step, a lane whose ray has ended takes the next one at once, and
+// back takes five or six steps. Each ray has its own step, a lane whose ray has ended takes the next one at once, and
 // nothing is allocated in between. A ray's result depends neither on the number of lanes nor on its neighbours, to the
 // bit. Errors: proportional to the tolerance; E = 0 is outside the method. Cites: [Carter1968] [JorbaZou2005]
 #pragma once
@@ -23,7 +23,7 @@ struct FirstIntegralSettings {
   double mino_max = std::numeric_limits<double>::infinity();  ///< Mino time that is reached -> max_affine
   std::int64_t max_steps = 100'000;                           ///< more -> max_steps
   bool timed = true;                                          ///< t and affine length too; else NaN
-  int lanes = 4;                                              ///< 1, 2, 4 or 8
+  int lanes = registers::native_lanes;  ///< 1, 2, 4 or 8; the widest register of this build if not said
 };
 
 /// How a ray ended.

@@ -15,6 +15,7 @@
 #include "metrics/catalogue.hpp"
 #include "metrics/kerr.hpp"
 #include "metrics/kerr_exact.hpp"
+#include "metrics/kerr_ray_exact.hpp"
 #include "metrics/schwarzschild.hpp"
 #include "metrics/separable_charts.hpp"
 
@@ -187,6 +188,52 @@ TEST(FirstIntegrals, agree_with_the_hamiltonian_flow) {
     }
   }
   EXPECT_GT(traced, 200);
+}
+
+TEST(FirstIntegrals, end_where_the_closed_form_says) {
+  Dice dice;
+  double worst_direction = 0.0, worst_azimuth = 0.0, worst_time = 0.0, worst_affine = 0.0;
+  int escaped = 0, rays = 0;
+  for (const double a : {0.0, 0.3, 0.9, 0.998, 1.0}) {
+    const SeparatedLight light = kerr(a).separated();
+    for (const SeparatedState& ray : screen_rays(light, 400, dice)) {
+      FirstIntegralSettings settings = settings_of(kerr(a), 1000.5, 1e-13);
+      settings.r_min = std::max(settings.r_min, 1.01);
+      const FirstIntegralEnd end = trace_one(light, ray, settings);
+      const double sine = std::hypot(ray.n[0], ray.n[1]);
+      const double theta_rate = (ray.n[0] * ray.n_rate[0] * ray.n[2] - sine * sine * ray.n_rate[2]) / sine;
+      const kerr_exact::KerrRay exact({1.0, a}, kerr_exact::RayMomentum{.r = 1.0 / ray.u,
+                                                                        .theta = std::atan2(sine, ray.n[2]),
+                                                                        .lambda = ray.lambda,
+                                                                        .p_theta = theta_rate,
+                                                                        .radial_sign = ray.u_rate < 0.0 ? 1 : -1});
+      const kerr_exact::Arrival truth = exact.at_end(1000.5, settings.r_min);
+      SCOPED_TRACE(fmt::format("a {} lambda {} eta {} r {} n_z {}", a, ray.lambda, ray.eta, 1.0 / ray.u, ray.n[2]));
+      ASSERT_TRUE(truth.reached);
+      EXPECT_EQ(end.status, truth.fate == kerr_exact::Fate::escaped ? Status::escaped : Status::captured);
+      // The closed form is of light that goes forward; traced back, azimuth and time are the negatives of its.
+      const double e = ray.energy_sign;
+      const std::array<double, 3> forward = truth.direction();
+      const double direction = angle_between(end.state.n, {forward[0], e * forward[1], forward[2]});
+      worst_direction = std::max(worst_direction, direction - truth.direction_error);
+      worst_azimuth = std::max(worst_azimuth, std::abs(end.swept_azimuth - e * truth.phi.value) - truth.phi.error);
+      worst_time = std::max(worst_time, std::abs(end.state.t - e * truth.time.value) - truth.time.error);
+      worst_affine = std::max(worst_affine, std::abs(end.affine - truth.affine.value) - truth.affine.error);
+      ++rays;
+      escaped += end.status == Status::escaped ? 1 : 0;
+    }
+  }
+  EXPECT_GT(rays, 1500);
+  EXPECT_GT(escaped, 500);
+  // The tolerance is 1e-13 a step; t and the affine length are of size 2000, and t has poles next to the horizon.
+  EXPECT_LT(worst_direction, 1e-11);
+  EXPECT_LT(worst_azimuth, 1e-11);
+  EXPECT_LT(worst_time, 1e-9);
+  EXPECT_LT(worst_affine, 1e-9);
+  RecordProperty("worst_direction", fmt::format("{:.1e}", worst_direction));
+  RecordProperty("worst_azimuth", fmt::format("{:.1e}", worst_azimuth));
+  RecordProperty("worst_time", fmt::format("{:.1e}", worst_time));
+  RecordProperty("worst_affine", fmt::format("{:.1e}", worst_affine));
 }
 
 /// A ray in the equatorial plane, from r inward or outward.
