@@ -164,6 +164,20 @@ class Sweep {
     }
   }
 
+  /// Light that falls past four real roots, all of them inside the horizon: lambda near a, eta small, a near M.
+  void past_hidden_roots(Report& report, double spin) {
+    const double r_plus = 1.0 + std::sqrt((1.0 - spin) * (1.0 + spin));
+    for (int tries = 0; tries < 1000; ++tries) {
+      const double lambda = spin * 2.0 * uniform(), eta = uniform() * spin * spin;
+      const kerr_exact::RadialMotion motion({spin, lambda, eta});
+      if (motion.kind != kerr_exact::PairKind::real_pair || motion.turns_outside) continue;
+      const RayStart start{20.0, std::numbers::pi / 2, lambda, eta, -1, symmetric() < 0.0 ? -1 : 1};
+      check(report, "hidden roots", spin, start, r_plus * (1.0 + std::pow(10.0, -3.0 * uniform())), 0);
+      return;
+    }
+    report.faults.push_back(fmt::format("no ray with hidden roots found at a = {}", spin));
+  }
+
  private:
   double uniform() { return unit_(engine_); }
   double symmetric() { return 2.0 * unit_(engine_) - 1.0; }
@@ -205,6 +219,7 @@ inline Report swept(unsigned seed, int each, int stride) {
         for (int k = 0; k < each; ++k) {
           sweep.camera(report, Camera{spin, r, inclination}, k);
           sweep.near_hole(report, spin);
+          if (spin >= 0.9) sweep.past_hidden_roots(report, spin);
         }
       }
     }
