@@ -25,31 +25,14 @@ PhaseState<double> state_of(const Array8& components) {
   return y;
 }
 
-/// dopri5 hands out the flow at the end of its step too; fehlberg78 does not.
-class Dopri5 final : public FlowStepper {
+using OdeintDopri5 = odeint::runge_kutta_dopri5<Array8, double, Array8, double, odeint::array_algebra>;
+using OdeintFehlberg78 = odeint::runge_kutta_fehlberg78<Array8, double, Array8, double, odeint::array_algebra>;
+
+/// An embedded pair. dopri5 hands out the flow at the end of its step too; fehlberg78 does not.
+template <class Pair>
+class EmbeddedPair final : public FlowStepper {
  public:
-  Dopri5(const MethodCard& card, Flow flow, const ErrorScale& scale)
-      : FlowStepper(card, std::move(flow)), scale_(scale) {}
-
-  StepOutcome step(const PhaseState<double>& y, double h) override {
-    begin_step(y, h);
-    const auto system = [this](const Array8& x, Array8& dxdt, double) { dxdt = rate(state_of(x)).c; };
-    StepOutcome out;
-    PhaseState<double> rate_there, error;
-    stepper_.do_step(system, y.c, begin_rate().c, 0.0, out.y.c, rate_there.c, h, error.c);
-    end_step(out.y, rate_there);
-    out.error_norm = error_norm(scale_, y, out.y, error);
-    return out;
-  }
-
- private:
-  ErrorScale scale_;
-  odeint::runge_kutta_dopri5<Array8, double, Array8, double, odeint::array_algebra> stepper_;
-};
-
-class Fehlberg78 final : public FlowStepper {
- public:
-  Fehlberg78(const MethodCard& card, Flow flow, const ErrorScale& scale)
+  EmbeddedPair(const MethodCard& card, Flow flow, const ErrorScale& scale)
       : FlowStepper(card, std::move(flow)), scale_(scale) {}
 
   StepOutcome step(const PhaseState<double>& y, double h) override {
@@ -57,15 +40,21 @@ class Fehlberg78 final : public FlowStepper {
     const auto system = [this](const Array8& x, Array8& dxdt, double) { dxdt = rate(state_of(x)).c; };
     StepOutcome out;
     PhaseState<double> error;
-    stepper_.do_step(system, y.c, begin_rate().c, 0.0, out.y.c, h, error.c);
-    end_step(out.y);
+    if constexpr (std::same_as<Pair, OdeintDopri5>) {
+      PhaseState<double> rate_there;
+      pair_.do_step(system, y.c, begin_rate().c, 0.0, out.y.c, rate_there.c, h, error.c);
+      end_step(out.y, rate_there);
+    } else {
+      pair_.do_step(system, y.c, begin_rate().c, 0.0, out.y.c, h, error.c);
+      end_step(out.y);
+    }
     out.error_norm = error_norm(scale_, y, out.y, error);
     return out;
   }
 
  private:
   ErrorScale scale_;
-  odeint::runge_kutta_fehlberg78<Array8, double, Array8, double, odeint::array_algebra> stepper_;
+  Pair pair_;
 };
 
 /// Odeint's bulirsch_stoer calls pow on its value type for its choice of step and order: with this one it finds ours,
@@ -164,10 +153,10 @@ class BulirschStoer final : public FlowStepper {
 }  // namespace
 
 std::unique_ptr<Stepper> make_odeint_dopri5(const MethodCard& card, Flow flow, const StepperSettings& settings) {
-  return std::make_unique<Dopri5>(card, std::move(flow), settings.error_scale);
+  return std::make_unique<EmbeddedPair<OdeintDopri5>>(card, std::move(flow), settings.error_scale);
 }
 std::unique_ptr<Stepper> make_odeint_rkf78(const MethodCard& card, Flow flow, const StepperSettings& settings) {
-  return std::make_unique<Fehlberg78>(card, std::move(flow), settings.error_scale);
+  return std::make_unique<EmbeddedPair<OdeintFehlberg78>>(card, std::move(flow), settings.error_scale);
 }
 std::unique_ptr<Stepper> make_odeint_bulirsch_stoer(const MethodCard& card, Flow flow,
                                                     const StepperSettings& settings) {

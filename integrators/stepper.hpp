@@ -26,14 +26,14 @@ struct ErrorScale {
 
 /// What users know of a method.
 struct MethodCard {
-  std::string_view id;     ///< as in `--method dopri54`
-  std::string_view title;  ///< one line for people, with the citation key
-  int order;               ///< formal order of the end point
-  bool adaptive;           ///< has an error estimate: takes --tol; fixed-step methods take --step
-  bool symplectic;         ///< the step map is symplectic (Tao's: in the doubled phase space)
-  bool separable_only;     ///< needs H = T(p) + V(x)
-  int dense_order;         ///< order of interpolate(); below order - 1 events are located by repeating the step shorter
-  int error_power = 0;     ///< the error estimate shrinks as h to this power; 0 for fixed-step methods
+  std::string_view id;          ///< as in `--method dopri54`
+  std::string_view title;       ///< one line for people, with the citation key
+  int order = 1;                ///< formal order of the end point
+  bool adaptive = false;        ///< has an error estimate: takes --tol; fixed-step methods take --step
+  bool symplectic = false;      ///< the step map is symplectic (Tao's: in the doubled phase space)
+  bool separable_only = false;  ///< needs H = T(p) + V(x)
+  int dense_order = 1;  ///< order of interpolate(); below order - 1 events are located by repeating the step shorter
+  int error_power = 0;  ///< the error estimate shrinks as h to this power; 0 for fixed-step methods
 };
 
 /// What came of one step.

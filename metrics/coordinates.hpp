@@ -37,6 +37,18 @@ template <class T>
   return sqrt(square(x[1]) + square(x[2]) + square(x[3]));
 }
 
+/// eta^{mu nu} - f l^mu l^nu for a null vector l, index up: the inverse of the Kerr-Schild form eta + f l l.
+template <class T>
+[[nodiscard]] constexpr SymTensor4<T> kerr_schild_inverse(const T& f, const Vec4<T>& l) {
+  SymTensor4<T> g;
+  for (std::size_t mu = 0; mu < 4; ++mu) {
+    const T f_l = f * l[mu];
+    for (std::size_t nu = mu + 1; nu < 4; ++nu) g(mu, nu) = -f_l * l[nu];
+    g(mu, mu) = (mu == 0 ? -1.0 : 1.0) - f_l * l[mu];
+  }
+  return g;
+}
+
 /// The spheroidal radius of a Cartesian point, and Sigma = r^2 + a^2 cos^2 theta.
 template <class T>
 struct SpheroidalRadius {

@@ -111,13 +111,7 @@ struct KerrSchild : KerrParameters {
     const T inv = 1.0 / (square(r) + square(spin));
     const T f = 2.0 * M * r / sigma;
     const Vec4<T> l_up{T(-Direction), (r * x[1] + spin * x[2]) * inv, (r * x[2] - spin * x[1]) * inv, x[3] / r};
-    SymTensor4<T> g;
-    for (std::size_t mu = 0; mu < 4; ++mu) {
-      const T f_l = f * l_up[mu];
-      for (std::size_t nu = mu + 1; nu < 4; ++nu) g(mu, nu) = -f_l * l_up[nu];
-      g(mu, mu) = (mu == 0 ? -1.0 : 1.0) - f_l * l_up[mu];
-    }
-    return g;
+    return kerr_schild_inverse<T>(f, l_up);
   }
 
   /// Hamilton's equations of H = 1/2 (eta^{mu nu} p_mu p_nu - f (l.p)^2) by hand: two square roots, two divisions.

@@ -60,13 +60,7 @@ struct SchwarzschildKerrSchild : SchwarzschildMass {
     const T inv_r = 1.0 / euclidean_radius(x);
     const T f = 2.0 * M * inv_r;
     const Vec4<T> l_up{T(-Direction), x[1] * inv_r, x[2] * inv_r, x[3] * inv_r};
-    SymTensor4<T> g;
-    for (std::size_t mu = 0; mu < 4; ++mu) {
-      const T f_l = f * l_up[mu];
-      for (std::size_t nu = mu + 1; nu < 4; ++nu) g(mu, nu) = -f_l * l_up[nu];
-      g(mu, mu) = (mu == 0 ? -1.0 : 1.0) - f_l * l_up[mu];
-    }
-    return g;
+    return kerr_schild_inverse<T>(f, l_up);
   }
 
   /// Hamilton's equations of H = 1/2 (eta^{mu nu} p_mu p_nu - f (l.p)^2) by hand: one square root, one division.
@@ -95,11 +89,15 @@ struct SchwarzschildKerrSchild : SchwarzschildMass {
 
   template <class T>
   requires(Direction < 0) [[nodiscard]] constexpr Vec4<T> to_hub(const Vec4<T>& x, int /*sheet*/) const {
-    return {x[0] + 2.0 * time_shift(radius(x) - 2.0 * M), x[1], x[2], x[3]};
+    return later(x, 1.0);
   }
   template <class T>
-  requires(Direction < 0) [[nodiscard]] constexpr Vec4<T> from_hub(const Vec4<T>& x) const {
-    return {x[0] - 2.0 * time_shift(radius(x) - 2.0 * M), x[1], x[2], x[3]};
+  requires(Direction < 0) [[nodiscard]] constexpr Vec4<T> from_hub(const Vec4<T>& x) const { return later(x, -1.0); }
+
+ private:
+  template <class T>
+  [[nodiscard]] constexpr Vec4<T> later(const Vec4<T>& x, double sense) const {
+    return {x[0] + 2.0 * sense * time_shift(radius(x) - 2.0 * M), x[1], x[2], x[3]};
   }
 };
 

@@ -73,16 +73,6 @@ struct PolarWithoutSpin {
   }
 };
 
-/// Kerr-Schild from its own parts: eta - f l l.
-template <class T>
-void from_parts(const T& f, const Vec4<T>& l, SymTensor4<T>& g) {
-  for (std::size_t mu = 0; mu < 4; ++mu) {
-    for (std::size_t nu = mu; nu < 4; ++nu) {
-      g(mu, nu) = (mu != nu ? 0.0 : (mu == 0 ? -1.0 : 1.0)) - f * l[mu] * l[nu];
-    }
-  }
-}
-
 /// l of the ingoing chart, index up, for a radius r and spins of its x and of its y component.
 template <class T>
 Vec4<T> null_vector(const Vec4<T>& x, const T& r, double a, double a_x, double a_y) {
@@ -94,7 +84,7 @@ struct NullVectorSign {
   template <class T>
   void operator()(const KerrSchildIngoing& kerr, const Vec4<T>& x, SymTensor4<T>& g) const {
     const auto [r, sigma] = spheroidal_radius(x, T(kerr.a));
-    from_parts<T>(2.0 * kerr.M * r / sigma, null_vector(x, r, kerr.a, kerr.a, -kerr.a), g);
+    g = kerr_schild_inverse<T>(2.0 * kerr.M * r / sigma, null_vector(x, r, kerr.a, kerr.a, -kerr.a));
   }
 };
 
@@ -102,7 +92,7 @@ struct SpinReversed {
   template <class T>
   void operator()(const KerrSchildIngoing& kerr, const Vec4<T>& x, SymTensor4<T>& g) const {
     const auto [r, sigma] = spheroidal_radius(x, T(kerr.a));
-    from_parts<T>(2.0 * kerr.M * r / sigma, null_vector(x, r, kerr.a, -kerr.a, -kerr.a), g);
+    g = kerr_schild_inverse<T>(2.0 * kerr.M * r / sigma, null_vector(x, r, kerr.a, -kerr.a, -kerr.a));
   }
 };
 
@@ -114,7 +104,7 @@ struct RadiusRoot {
     const T b = square(x[1]) + square(x[2]) + square(x[3]) + a_sq;
     const T sigma = sqrt(square(b) + 4.0 * a_sq * square(x[3]));
     const T r = sqrt(0.5 * (b + sigma));
-    from_parts<T>(2.0 * kerr.M * r / sigma, null_vector(x, r, kerr.a, kerr.a, kerr.a), g);
+    g = kerr_schild_inverse<T>(2.0 * kerr.M * r / sigma, null_vector(x, r, kerr.a, kerr.a, kerr.a));
   }
 };
 
@@ -122,7 +112,7 @@ struct SigmaWithoutSpin {
   template <class T>
   void operator()(const KerrSchildIngoing& kerr, const Vec4<T>& x, SymTensor4<T>& g) const {
     const T r = spheroidal_radius(x, T(kerr.a)).r;
-    from_parts<T>(2.0 * kerr.M / r, null_vector(x, r, kerr.a, kerr.a, kerr.a), g);
+    g = kerr_schild_inverse<T>(2.0 * kerr.M / r, null_vector(x, r, kerr.a, kerr.a, kerr.a));
   }
 };
 
@@ -143,7 +133,7 @@ struct IngoingForOutgoing {
   template <class T>
   void operator()(const KerrSchildOutgoing& kerr, const Vec4<T>& x, SymTensor4<T>& g) const {
     const auto [r, sigma] = spheroidal_radius(x, T(kerr.a));
-    from_parts<T>(2.0 * kerr.M * r / sigma, null_vector(x, r, kerr.a, kerr.a, kerr.a), g);
+    g = kerr_schild_inverse<T>(2.0 * kerr.M * r / sigma, null_vector(x, r, kerr.a, kerr.a, kerr.a));
   }
 };
 

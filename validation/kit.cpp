@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -142,6 +143,27 @@ Tolerance accumulated(const RayEnd& ray, double tol, double condition) {
   return {steps * (tol + round_off) * condition,
           fmt::format("{} steps, each within tol = {:g} and round-off, amplified by at most the ray's condition {:.3g}",
                       ray.steps, tol, condition)};
+}
+
+Tolerance deflection_tolerance(const RayEnd& ray, const MethodAt& method, double ratio, double condition,
+                               double deflection) {
+  if (method.setting <= 2e-15 && ratio >= 1.1) {
+    return {1e-12 * std::max(1.0, deflection), "promised: 1e-12 max(1 rad, alpha) for b >= 1.1 b_c"};
+  }
+  return accumulated(ray, method.setting, condition);
+}
+
+Charts charts(const Lab& lab, std::string_view metric, std::string_view classical, std::string_view transport,
+              std::span<const NamedValue> values) {
+  return {lab.spacetime(metric, classical, values), lab.spacetime(metric, transport, values)};
+}
+
+bool ended_as(Row& row, const RayEnd& end, Status wanted) {
+  row.evaluations += end.evaluations;
+  if (end.status == wanted) return true;
+  row.verdict = Verdict::error;
+  row.note = fmt::format("the ray ended as '{}', not as '{}'", to_string(end.status), to_string(wanted));
+  return false;
 }
 
 }  // namespace xpr

@@ -2,6 +2,7 @@
 // the same way everywhere.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -56,6 +57,17 @@ void grade_bound(Row& row, double quantity, const Tolerance& bound);
 /// A row for what could not be measured here, with the reason; printed as loudly as a failure.
 [[nodiscard]] Row skipped_row(std::string label, std::string reason, std::string unit = "1");
 
+/// The classical chart of a spacetime, in which truth is evaluated, and the chart that rays run in.
+struct Charts {
+  std::unique_ptr<Spacetime> classical;
+  std::unique_ptr<Spacetime> transport;
+};
+[[nodiscard]] Charts charts(const Lab& lab, std::string_view metric, std::string_view classical,
+                            std::string_view transport, std::span<const NamedValue> values);
+
+/// Makes a row an error, and says so, where the ray did not end as it should have; counts its evaluations.
+[[nodiscard]] bool ended_as(Row& row, const RayEnd& end, Status wanted);
+
 /// Light at (r, theta, phi = 0) of `classical` (spherical: t, r or l, theta, phi) with E = 1, azimuthal momentum L,
 /// polar momentum p_theta, moving inward or outward, expressed in `chart`. `classical` has no cross terms between the
 /// radial coordinate and the others. Throws std::domain_error where no such ray exists.
@@ -108,5 +120,10 @@ template <class Escapes>
 /// The truth's own conditioning and the tracer's local tolerance, put together: `steps` local errors of `tol`, each
 /// amplified by at most `condition`, plus the same for round-off.
 [[nodiscard]] Tolerance accumulated(const RayEnd& ray, double tol, double condition);
+
+/// Of a deflection at b = `ratio` times the critical one: the project's promise for the tightest settings wherever the
+/// ray is not near-critical, else what has accumulated.
+[[nodiscard]] Tolerance deflection_tolerance(const RayEnd& ray, const MethodAt& method, double ratio, double condition,
+                                             double deflection);
 
 }  // namespace xpr

@@ -23,14 +23,9 @@ namespace exact = ellis_exact;
 constexpr double throat = 1.0;
 constexpr double far = std::numeric_limits<double>::infinity();
 
-struct Charts {
-  std::unique_ptr<Spacetime> classical;
-  std::unique_ptr<Spacetime> transport;
-};
-
 Charts charts(const Lab& lab, std::string_view transport) {
   const std::array<NamedValue, 1> values{{{"b0", throat}}};
-  return {lab.spacetime("ellis", "proper-distance", values), lab.spacetime("ellis", transport, values)};
+  return charts(lab, "ellis", "proper-distance", transport, values);
 }
 
 /// A ray from l0 > 0 inward until it is back at l0 or has come out at -l0.
@@ -52,13 +47,6 @@ bool came_out(Row& row, const SweptRay& ray, int side) {
 
 /// 1 + |b d alpha / d b| ~ 1 + b / |b - b0| near the throat's photon orbit.
 double condition(double b) { return 1.0 + b / std::abs(b - throat); }
-
-Tolerance angle_tolerance(const RayEnd& end, const MethodAt& method, double b, double angle) {
-  if (method.setting <= 2e-15 && b >= 1.1 * throat) {
-    return {1e-12 * std::max(1.0, angle), "promised: 1e-12 max(1 rad, alpha) for b >= 1.1 b0"};
-  }
-  return accumulated(end, method.setting, condition(b));
-}
 
 constexpr const char* modulus_fault = "ellis-modulus-for-parameter";
 constexpr const char* diverging_fault = "ellis-diverging-lens";
@@ -105,7 +93,7 @@ std::vector<Row> deflection_rows(const Lab& lab) {
                                exact::swept_angle(throat, stored_b, ray.end_classical[1], far, false).value;
           const ExactValue truth = deflection_truth(lab, stored_b);
           grade(row, std::abs(ray.azimuth()) + tails - pi<double>(), {truth.value, truth.error},
-                angle_tolerance(ray.end, method, b, std::abs(truth.value)));
+                deflection_tolerance(ray.end, method, b / throat, condition(b), std::abs(truth.value)));
         }
         rows.push_back(std::move(row));
       }

@@ -24,7 +24,7 @@ using exact::Sense;
 
 Charts charts(const Lab& lab, double spin, std::string_view transport) {
   const std::array<NamedValue, 2> values{{{"M", mass}, {"a", spin}}};
-  return {lab.spacetime("kerr", "boyer-lindquist", values), lab.spacetime("kerr", transport, values)};
+  return charts(lab, "kerr", "boyer-lindquist", transport, values);
 }
 
 ChartState inward_light(const Charts& at, double r, double theta, double L, double p_theta) {
@@ -32,14 +32,6 @@ ChartState inward_light(const Charts& at, double r, double theta, double L, doub
   ChartState start = general_light(*at.classical, *at.transport, r, theta, L, p_theta, !backward);
   if (backward) start.state = reversed(start.state);
   return start;
-}
-
-bool ended_as(Row& row, const RayEnd& end, Status wanted) {
-  row.evaluations += end.evaluations;
-  if (end.status == wanted) return true;
-  row.verdict = Verdict::error;
-  row.note = fmt::format("the ray ended as '{}', not as '{}'", to_string(end.status), to_string(wanted));
-  return false;
 }
 
 double deflection_condition(double spin, double b) {
@@ -245,14 +237,6 @@ double deflection_of(const SweptRay& ray, double spin, double b) {
     return std::abs(exact::equatorial_swept_angle(mass, spin, b, r, far, false).value);
   };
   return std::abs(ray.azimuth()) + tail(ray.start_classical[1]) + tail(ray.end_classical[1]) - std::numbers::pi;
-}
-
-Tolerance deflection_tolerance(const RayEnd& end, const MethodAt& method, double ratio, double condition,
-                               double alpha) {
-  if (method.setting <= 2e-15 && ratio >= 1.1) {
-    return {1e-12 * std::max(1.0, alpha), "promised: 1e-12 max(1 rad, alpha) for b >= 1.1 b_c"};
-  }
-  return accumulated(end, method.setting, condition);
 }
 
 std::vector<MethodAt> deflection_methods(const Lab& lab) {

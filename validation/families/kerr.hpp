@@ -13,19 +13,12 @@ namespace xpr::kerr_family {
 
 inline constexpr double mass = 1.0;
 
-/// Boyer-Lindquist, in which truth is evaluated, and the chart that rays run in.
-struct Charts {
-  std::unique_ptr<Spacetime> classical;
-  std::unique_ptr<Spacetime> transport;
-};
+/// Boyer-Lindquist and the chart that rays run in.
 [[nodiscard]] Charts charts(const Lab& lab, double spin, std::string_view transport);
 
 /// Light at (r, theta) with E = 1, L and p_theta in the transport chart, to be followed towards smaller r: forward in
 /// time, or, in `kerr-schild-outgoing`, backward from where it goes outward, as a camera does.
 [[nodiscard]] ChartState inward_light(const Charts& at, double r, double theta, double L, double p_theta);
-
-/// What makes a row an error where the ray did not end as it should have.
-[[nodiscard]] bool ended_as(Row& row, const RayEnd& end, Status wanted);
 
 /// |b d alpha / d b| + 1 of an equatorial ray, by a central difference of the closed form: how much a relative error of
 /// b is amplified.
