@@ -13,6 +13,11 @@ endif()
 # -fno-math-errno only lets sqrt be one instruction: no value changes.
 add_library(xpr_determinism INTERFACE)
 target_compile_options(xpr_determinism INTERFACE -ffp-contract=off -fno-math-errno)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # gcc 12.2 vectorises a*b+-c in straight-line code into vfmaddsub and vfmsubadd even so. Lanes are explicit vectors and
+  # lose nothing; tests/tools/check_no_fma.py looks at the machine code.
+  target_compile_options(xpr_determinism INTERFACE -fno-tree-slp-vectorize)
+endif()
 target_compile_definitions(xpr_determinism INTERFACE EIGEN_DONT_VECTORIZE)
 
 # The ISA level moves speed, never bits. "native" picks the highest x86-64 level that this machine runs.
