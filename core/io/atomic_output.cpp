@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <stdlib.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -92,6 +93,30 @@ fs::path make_aside_directory(const fs::path& target) {
   return name;
 }
 
+// Locks a directory, and returns the descriptor that holds the lock; -1 where another holds it, or where the file
+// system knows no locks.
+int locked(const fs::path& directory, int how) {
+  const int fd = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0 || ::flock(fd, how) == 0) return fd;
+  ::close(fd);
+  return -1;
+}
+
+// A process that was killed had no time to remove its directory aside.
+void remove_abandoned(const fs::path& target) {
+  const std::string prefix = "." + target.filename().string() + ".part.";
+  std::error_code error;
+  for (fs::directory_iterator at(parent_of(target), error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (name.size() != prefix.size() + 6 || !name.starts_with(prefix)) continue;
+    const int lock = locked(at->path(), LOCK_EX | LOCK_NB);
+    if (lock < 0) continue;
+    std::error_code ignored;
+    fs::remove_all(at->path(), ignored);
+    ::close(lock);
+  }
+}
+
 void rename_into_place(const fs::path& from, const fs::path& to) {
   if (std::rename(from.c_str(), to.c_str()) != 0) throw_system_error(to, "cannot be replaced", errno);
 }
@@ -148,12 +173,18 @@ void AtomicFile::commit() {
 AtomicDirectory::AtomicDirectory(fs::path target, std::string marker)
     : target_(without_trailing_slash(std::move(target))), marker_(std::move(marker)) {
   check_target();
-  aside_ = make_aside_directory(target_);
+  remove_abandoned(target_);
+  do {
+    aside_ = make_aside_directory(target_);
+    lock_ = locked(aside_, LOCK_EX);
+    // Another process may have taken it for an abandoned one before it was locked.
+  } while (!fs::exists(aside_));
 }
 
 AtomicDirectory::~AtomicDirectory() {
   std::error_code ignored;
   if (!aside_.empty()) fs::remove_all(aside_, ignored);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 void AtomicDirectory::check_target() const {

@@ -1,7 +1,8 @@
 // Output that is complete or absent: written aside, synced to the disk, renamed into place.
 //
 // What stands at the target is replaced whole, and untouched until then. An object that goes out of scope without
-// commit() leaves nothing behind. Errors: InputError for a path that cannot be written, FaultError for the disk.
+// commit() leaves nothing behind; what a killed process left of a directory, the next output to the same place removes.
+// Errors: InputError for a path that cannot be written, FaultError for the disk.
 #pragma once
 
 #include <filesystem>
@@ -50,6 +51,7 @@ class AtomicDirectory {
   std::filesystem::path target_;
   std::string marker_;
   std::filesystem::path aside_;
+  int lock_ = -1;  // on the directory aside, while this lives: a directory that nobody has locked is nobody's
 };
 
 /// Writes a small file whole, aside and renamed.

@@ -108,5 +108,26 @@ TEST(AtomicDirectory, leaves_the_earlier_output_when_the_work_fails) {
   EXPECT_EQ(std::distance(fs::directory_iterator(directory.path()), {}), 1);
 }
 
+// 2026-11-22: a second Ctrl-C killed validate before it could remove its hidden directory, which stayed for ever.
+TEST(AtomicDirectory, removes_what_a_killed_process_left_and_nothing_else) {
+  const TemporaryDirectory directory;
+  fs::create_directory(directory / ".report.part.Ab12Cd");
+  spill(directory / ".report.part.Ab12Cd/summary.json", "half");
+  fs::create_directory(directory / ".report.part.mine");
+  fs::create_directory(directory / ".other.part.Ab12Cd");
+  AtomicDirectory running(directory / "report", "summary.json");
+  EXPECT_FALSE(fs::exists(directory / ".report.part.Ab12Cd"));
+  spill(running.path() / "summary.json", "first");
+  {
+    AtomicDirectory second(directory / "report", "summary.json");
+    EXPECT_TRUE(fs::exists(running.path() / "summary.json"));
+    EXPECT_NE(second.path(), running.path());
+  }
+  running.commit();
+  EXPECT_EQ(slurp(directory / "report/summary.json"), "first");
+  EXPECT_TRUE(fs::exists(directory / ".report.part.mine"));
+  EXPECT_TRUE(fs::exists(directory / ".other.part.Ab12Cd"));
+}
+
 }  // namespace
 }  // namespace xpr
