@@ -25,6 +25,8 @@ Tone tone_of(Outcome outcome) {
     case Outcome::failed:
     case Outcome::error:
       return Tone::bad;
+    case Outcome::swept:
+      return Tone::plain;
     case Outcome::inconclusive:
     case Outcome::nothing_graded:
       break;

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "reports/meaningful.hpp"
@@ -96,8 +99,27 @@ Outcome outcome_of(const SuiteResult& suite, const Counts& counts) {
     case 4:
       return Outcome::inconclusive;
     default:
-      return counts.pass > 0 ? Outcome::passed : Outcome::nothing_graded;
+      break;
   }
+  if (counts.pass > 0) return Outcome::passed;
+  const bool only_sweeps = suite.cases.empty() && suite.faults.empty() && !suite.sweeps.empty();
+  return only_sweeps ? Outcome::swept : Outcome::nothing_graded;
+}
+
+/// "2 quantities, 8 series, 64 points; nothing is graded": a series is one method's errors over its settings.
+std::string swept_in_words(const std::vector<Sweep>& sweeps) {
+  std::set<std::tuple<std::string, std::string, std::string, std::string>> series;
+  std::size_t points = 0;
+  for (const Sweep& sweep : sweeps) {
+    points += sweep.points.size();
+    for (const SweepPoint& point : sweep.points) {
+      series.emplace(sweep.quantity, point.metric, point.chart, point.method);
+    }
+  }
+  const auto number = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+  const std::string quantities = sweeps.size() == 1 ? "1 quantity" : grouped(number(sweeps.size())) + " quantities";
+  return fmt::format("{}, {} series, {}; nothing is graded", quantities, grouped(number(series.size())),
+                     counted(number(points), "point"));
 }
 
 std::string sentence_of(const SuiteResult& suite, const Digest& digest) {
@@ -128,6 +150,7 @@ std::string sentence_of(const SuiteResult& suite, const Digest& digest) {
   }
   say(counts.skipped, counted(counts.skipped, "row") + " SKIPPED");
   std::string sentence = to_string(digest.outcome);
+  if (digest.outcome == Outcome::swept) parts.push_back(swept_in_words(suite.sweeps));
   if (parts.empty()) parts.emplace_back("no row was graded");
   for (std::size_t i = 0; i < parts.size(); ++i) sentence += (i == 0 ? ": " : "; ") + parts[i];
   return sentence + ".";
@@ -145,6 +168,8 @@ const char* to_string(Outcome outcome) {
       return "ERROR";
     case Outcome::inconclusive:
       return "INCONCLUSIVE";
+    case Outcome::swept:
+      return "CONVERGENCE SWEEP";
     case Outcome::nothing_graded:
       break;
   }

@@ -60,7 +60,8 @@ struct Coverage {
   std::vector<std::vector<CoverageCell>> cells;  ///< [chart][method]
 };
 
-enum class Outcome { passed, failed, error, inconclusive, nothing_graded };
+/// `swept`: a convergence sweep by itself, which measures and grades nothing.
+enum class Outcome { passed, failed, error, inconclusive, nothing_graded, swept };
 [[nodiscard]] const char* to_string(Outcome outcome);  ///< "PASSED", "FAILED", ...
 
 struct Digest {

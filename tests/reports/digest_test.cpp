@@ -60,6 +60,18 @@ TEST(Digest, of_skipped_rows_alone_is_not_a_pass) {
   EXPECT_EQ(digest({}).sentence, "NOTHING GRADED: no row was graded.");
 }
 
+TEST(Digest, of_sweeps_alone_says_that_it_is_a_sweep) {
+  SuiteResult suite;
+  Sweep& sweep = suite.sweeps.emplace_back();
+  sweep.quantity = "end state";
+  for (const char* method : {"rk4", "rk4", "dopri54"}) sweep.points.emplace_back().method = method;
+  EXPECT_EQ(digest(suite).outcome, Outcome::swept);
+  EXPECT_EQ(digest(suite).sentence, "CONVERGENCE SWEEP: 1 quantity, 2 series, 3 points; nothing is graded.");
+  // Beside rows that were to be graded and were not, sweeps are no excuse.
+  suite.cases.emplace_back().rows.emplace_back().verdict = Verdict::skipped;
+  EXPECT_EQ(digest(suite).outcome, Outcome::nothing_graded);
+}
+
 TEST(Digest, tells_the_tail_of_error_over_tolerance) {
   SuiteResult suite;
   CaseResult& result = suite.cases.emplace_back();
