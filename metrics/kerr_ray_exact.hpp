@@ -2,12 +2,12 @@
 // it took, and whether it escapes. No stepping: class and turning points follow from the roots of the radial quartic.
 //   Boyer-Lindquist (t, r, theta, phi), mass M > 0, spin a with |a| <= M about theta = 0; future-directed light, E > 0.
 //   lambda = L/E, eta = Q/E^2 (Carter's Q); affine length for E = 1; Mino time d(affine) = Sigma d(tau).
-// A camera ray traced back in time is the time reverse of one of these: reverse p_r and p_theta, keep lambda and eta,
-// and reverse t, phi and the affine length of the answer. Where p_t = 0 or E < 0 there is none of these rays.
-// Plain doubles, with Wide numbers where they cancel; every answer says how far it may be off (as ExactValue does) at
-// the stored doubles of the arguments. Typical errors are some 1e-15 of the larger of 1 and the number itself.
-// Light that ends at the horizon has no end: phi and t diverge there. A captured ray is followed to a given r1 > r+.
-// Cites: [Carter1968] [GrallaLupsasca2020Geodesics] [DexterAgol2009] [Carlson1995]
+// A ray that a camera traces back in time is a RayEvent with p^t < 0, or by its constants: the same lambda and eta,
+// signs of the way it goes, and t, phi and the affine length of the answer reversed. Inside the ergosphere light may
+// have E <= 0; it is none of these rays. Plain doubles, with Wide numbers where they cancel; every answer says how far
+// it may be off (as ExactValue does) at the stored doubles of the arguments. Typical errors are some 1e-15 of the
+// larger of 1 and the number itself. Light that ends at the horizon has no end: phi and t diverge there. A captured ray
+// is followed to a given r1 > r+. Cites: [Carter1968] [GrallaLupsasca2020Geodesics] [DexterAgol2009] [Carlson1995]
 #pragma once
 
 #include <array>
@@ -45,6 +45,18 @@ struct RayMomentum {
   int radial_sign = -1;
 };
 
+/// The same by an event and its covariant momentum in any scale, as a ray table has them. The ray goes along p,
+/// forwards in time (p_t < 0) or backwards (p_t > 0, E = |p_t|): then elapsed t and affine length come out negative.
+/// p_r = 0 means a turning point.
+struct RayEvent {
+  double r = 0.0;
+  double theta = 0.0;
+  double p_t = -1.0;
+  double p_r = 0.0;
+  double p_theta = 0.0;
+  double p_phi = 0.0;
+};
+
 /// The end of a stretch of a ray. Nothing in it is meaningful unless `reached`.
 struct Arrival {
   Fate fate = Fate::escaped;  ///< of the whole ray, reached or not
@@ -68,14 +80,17 @@ struct Arrival {
   [[nodiscard]] std::array<double, 3> direction(double phi0 = 0.0) const;
 };
 
+struct PreparedStart;
+
 /// One ray. Construction finds the roots; every question afterwards is a few elliptic integrals.
 class KerrRay {
  public:
   /// Throws std::invalid_argument for M <= 0, |a| > M, a sign that is not +-1 or a number that is not finite, and
   /// std::domain_error for a start that no light passes: r not outside the horizon, theta outside [0, pi], lambda != 0
-  /// on the axis, R(r) < 0 or Theta(theta) < 0 by more than rounding.
+  /// on the axis, R(r) < 0 or Theta(theta) < 0 by more than rounding, E <= 0.
   KerrRay(const RayHole& hole, const RayStart& start);
   KerrRay(const RayHole& hole, const RayMomentum& start);
+  KerrRay(const RayHole& hole, const RayEvent& start);
 
   [[nodiscard]] Fate fate() const { return fate_; }
   /// The radius of the turning point ahead, if there is one.
@@ -89,8 +104,7 @@ class KerrRay {
   [[nodiscard]] Arrival at_end(double r_out, double r_in) const;
 
  private:
-  struct Prepared;
-  explicit KerrRay(const Prepared& prepared);
+  explicit KerrRay(const PreparedStart& prepared);
   void set_fate();
   [[nodiscard]] bool comes_to(Wide& r, int radial_turns) const;
   [[nodiscard]] RadialSums radial_path(const Wide& r, bool via_turn) const;
@@ -98,6 +112,7 @@ class KerrRay {
 
   double mass_;
   double orientation_;  ///< sign of a
+  double time_sense_;   ///< -1 for a ray traced back in time
   Wide r0_;             ///< in units of the mass from here on
   int radial_sign_;
   RadialMotion radial_;

@@ -65,6 +65,10 @@ TEST(Wide, keeps_thirty_digits) {
     close(x * y, a * b, abs(a * b));
     close(x / y, a / b, abs(a / b));
     close(sqrt(x * x), abs(a), abs(a));
+    const double theta = 3.14159 * std::abs(unit(engine));
+    const WideSincos wide = wide_sincos(theta);
+    close(wide.sine, sin(Quad(theta)), Quad(1));
+    close(wide.cosine, cos(Quad(theta)), Quad(1));
   }
   EXPECT_EQ(sqrt(Wide(0.0)).high, 0.0);
 }

@@ -279,6 +279,28 @@ TEST(KerrRay, mass_is_a_unit_and_spin_has_a_mirror) {
   EXPECT_EQ(mirror.theta.value, unit.theta.value);
 }
 
+// p with p^t < 0: the path of the light that comes the other way, passed through in reverse.
+TEST(KerrRay, events_are_followed_forwards_and_back_in_time) {
+  const RayHole hole{1.0, -0.8};
+  const RayMomentum momentum{.r = 70, .theta = 2.1, .lambda = 3, .p_theta = -5, .radial_sign = -1};
+  const Arrival reference = KerrRay(hole, momentum).at_radius(90, 1);
+  const Arrival forwards =
+      KerrRay(hole,
+              kerr_exact::RayEvent{.r = 70, .theta = 2.1, .p_t = -0.5, .p_r = -0.1, .p_theta = -2.5, .p_phi = 1.5})
+          .at_radius(90, 1);
+  EXPECT_EQ(forwards.phi.value, reference.phi.value);
+  EXPECT_EQ(forwards.time.value, reference.time.value);
+  const Arrival back =
+      KerrRay(hole, kerr_exact::RayEvent{.r = 70, .theta = 2.1, .p_t = 1, .p_r = -0.1, .p_theta = -5, .p_phi = -3})
+          .at_radius(90, 1);
+  EXPECT_EQ(back.theta.value, reference.theta.value);
+  EXPECT_EQ(back.phi.value, -reference.phi.value);
+  EXPECT_EQ(back.time.value, -reference.time.value);
+  EXPECT_EQ(back.affine.value, -reference.affine.value);
+  EXPECT_EQ(back.mino.value, reference.mino.value);
+  EXPECT_EQ(back.polar_sign, reference.polar_sign);
+}
+
 TEST(KerrRay, goes_back_the_way_it_came) {
   const RayHole hole{1.0, 0.95};
   const Arrival there =
@@ -315,6 +337,10 @@ TEST(KerrRay, refuses_what_no_light_does) {
   EXPECT_THROW(made({1, 0.5}, with([](RayStart& s) { s.theta = 0.05; })), std::domain_error);  // Theta < 0
   EXPECT_THROW(made({1, 0.5}, with([](RayStart& s) { s.theta = 0; })), std::domain_error);     // L on the axis
   EXPECT_THROW(made({1, 0.5}, with([](RayStart& s) { s.theta = 4; })), std::domain_error);
+  EXPECT_THROW(KerrRay({1, 0.5}, kerr_exact::RayEvent{.r = 20, .theta = 1, .p_t = 0, .p_phi = 1}), std::domain_error);
+  // Deep in the ergosphere of a = 0.99, L = 4: R > 0, but such light has E < 0.
+  EXPECT_THROW(KerrRay({1, 0.99}, RayStart{.r = 1.15, .theta = pi / 2, .lambda = 4, .eta = 0, .radial_sign = -1}),
+               std::domain_error);
   const KerrRay ray(RayHole{1, 0.5}, good);
   EXPECT_THROW((void)ray.at_radius(1.5, 0), std::domain_error);
   EXPECT_FALSE(ray.at_radius(2.0, 0).reached);   // inside the turning point
