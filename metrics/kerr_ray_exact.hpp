@@ -1,13 +1,23 @@
 // Any null ray of Kerr between two radii outside the horizon, in closed form: where it ends, how far it swept, how long
 // it took, and whether it escapes. No stepping: class and turning points follow from the roots of the radial quartic.
-//   Boyer-Lindquist (t, r, theta, phi), mass M > 0, spin a with |a| <= M about theta = 0; future-directed light, E > 0.
-//   lambda = L/E, eta = Q/E^2 (Carter's Q); affine length for E = 1; Mino time d(affine) = Sigma d(tau).
+//
+//   Boyer-Lindquist (t, r, theta, phi), mass M > 0, spin a with |a| <= M about theta = 0 (a = 0: Schwarzschild's areal
+//   r); future-directed light, E > 0, lambda = L/E, eta = Q/E^2 (Carter's Q); affine length for E = 1; Mino time tau.
+//
 // A ray that a camera traces back in time is a RayEvent with p^t < 0, or by its constants: the same lambda and eta,
 // signs of the way it goes, and t, phi and the affine length of the answer reversed. Inside the ergosphere light may
-// have E <= 0; it is none of these rays. Plain doubles, with Wide numbers where they cancel; every answer says how far
-// it may be off (as ExactValue does) at the stored doubles of the arguments. Typical errors are some 1e-15 of the
-// larger of 1 and the number itself. Light that ends at the horizon has no end: phi and t diverge there. A captured ray
-// is followed to a given r1 > r+. Cites: [Carter1968] [GrallaLupsasca2020Geodesics] [DexterAgol2009] [Carlson1995]
+// have E <= 0; it is none of these rays. Light that ends at the horizon has no end: phi and t diverge there. A captured
+// ray is followed to a given r1 > r+.
+//
+// How: theta by Jacobi's functions and its integrals by Carlson's; tau by Carlson's R_F where the ray turns; the radial
+// integrals of the third kind, whose partial fractions cancel next to extremal horizons, as elementary terms plus a
+// smooth rest that is summed to rounding (kerr_radial_exact.cpp). Every root case of both potentials, named where it is
+// degenerate: RadialMotion::spherical and ::kind, PolarKind.
+//
+// Plain doubles, Wide numbers where they cancel. Every answer says how far it may be off (as ExactValue does) at the
+// stored doubles of the arguments; that is 1e-15 of the larger of 1 and the number in the median, with bounds some
+// thirty times that. Next to the critical curve no digit is lost until 1 - b/b_c is 1e-14 or less.
+// Cites: [Carter1968] [GrallaLupsasca2020Geodesics] [DexterAgol2009] [Carlson1995]
 #pragma once
 
 #include <array>
