@@ -164,10 +164,23 @@ class Sweep {
     }
   }
 
+  /// eta < 0: light that stays on its side of the equator, in from 20 M or out again.
+  void vortical(Report& report, double spin) {
+    const double r_plus = 1.0 + std::sqrt((1.0 - spin) * (1.0 + spin));
+    const double theta = std::acos(symmetric()), cosine = std::cos(theta), sine = std::sin(theta);
+    const double lambda = spin * sine * symmetric();
+    const double lowest = -cosine * cosine * (spin * spin - lambda * lambda / (sine * sine));
+    const double near = r_plus * (1.0 + std::pow(10.0, -2.0 * uniform()));
+    const bool inward = symmetric() < 0.0;
+    const RayStart start{inward ? 20.0 : near, theta,           lambda,
+                         lowest * uniform(),   inward ? -1 : 1, symmetric() < 0.0 ? -1 : 1};
+    check(report, "vortical", spin, start, inward ? near : 20.0, 0);
+  }
+
   /// Light that falls past four real roots, all of them inside the horizon: lambda near a, eta small, a near M.
   void past_hidden_roots(Report& report, double spin) {
     const double r_plus = 1.0 + std::sqrt((1.0 - spin) * (1.0 + spin));
-    for (int tries = 0; tries < 1000; ++tries) {
+    for (int tries = 0; tries < 100000; ++tries) {
       const double lambda = spin * 2.0 * uniform(), eta = uniform() * spin * spin;
       const kerr_exact::RadialMotion motion({spin, lambda, eta});
       if (motion.kind != kerr_exact::PairKind::real_pair || motion.turns_outside) continue;
@@ -182,7 +195,7 @@ class Sweep {
   double uniform() { return unit_(engine_); }
   double symmetric() { return 2.0 * unit_(engine_) - 1.0; }
 
-  /// Both sides of the shadow's edge, 1e-2 ... 1e-8 away.
+  /// Both sides of the shadow's edge, 1e-2 ... 1e-10 away.
   void near_edge(Report& report, const Camera& camera, double r_min) {
     const double angle = 2.0 * std::numbers::pi * uniform(), x = std::cos(angle), y = std::sin(angle);
     const auto captured = [&](double size) {
@@ -194,7 +207,7 @@ class Sweep {
       const double middle = 0.5 * (inside + outside);
       (captured(middle) ? inside : outside) = middle;
     }
-    const double away = std::pow(10.0, -2.0 - 6.0 * uniform());
+    const double away = std::pow(10.0, -2.0 - 8.0 * uniform());
     const RayStart beyond = camera.at(outside * (1.0 + away) * x, outside * (1.0 + away) * y);
     const RayStart within = camera.at(inside * (1.0 - away) * x, inside * (1.0 - away) * y);
     check(report, "just escaping", camera.spin, beyond, camera.r, 1);
@@ -219,6 +232,7 @@ inline Report swept(unsigned seed, int each, int stride) {
         for (int k = 0; k < each; ++k) {
           sweep.camera(report, Camera{spin, r, inclination}, k);
           sweep.near_hole(report, spin);
+          if (spin >= 0.3) sweep.vortical(report, spin);
           if (spin >= 0.9) sweep.past_hidden_roots(report, spin);
         }
       }

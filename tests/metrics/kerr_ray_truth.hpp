@@ -140,10 +140,9 @@ End<T> followed(const Ray<T>& ray, const T& r_end, int end_sign) {
     const Expansion<T> y(ray, u, u_rate, c, c_rate);
     T h = T(y.step());
     T next = value(y.u, h), next_rate = slope(y.u, h);
-    // What ends before its turning point must not step across both.
+    // What ends before its turning point must not step across it.
     const bool inward = static_cast<double>(u_rate) > 0.0;
-    while (inward == (end_sign < 0) && (static_cast<double>(next_rate) > 0.0) != inward &&
-           (static_cast<double>(next - u_end) > 0.0) != inward) {
+    for (int i = 0; i < 60 && inward == (end_sign < 0) && (static_cast<double>(next_rate) > 0.0) != inward; ++i) {
       h = h * T(0.5);
       next = value(y.u, h), next_rate = slope(y.u, h);
     }
