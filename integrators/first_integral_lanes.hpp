@@ -25,22 +25,22 @@ struct Batch {
 /// The closed-form parts of azimuth and time over a ray's branches (metrics/separable.hpp), as running combinations:
 /// every branch from u1 to u2 of sign s adds s (A(u2) - A(u1)), so a turn adds 2 s A and the ends -s A and s A. Sums of
 /// artanh(w g) combine g by the addition theorem, sums of logarithms multiply: one artanh and one log a ray.
-template <class T>
+template <class T, bool Timed>
 struct BranchSums {
   T g{};       ///< artanh(w g)/w is the sum of s A
-  T delta{};   ///< log delta is the sum of s ln Delta
-  T radius{};  ///< the sum of s r
+  T delta{};   ///< log delta is the sum of s ln Delta, if timed
+  T radius{};  ///< the sum of s r, if timed
 
-  void start() { g = 0.0, delta = 1.0, radius = 0.0; }
   /// Adds s A, s ln Delta and s r at u.
   void add(const SeparatedLight& light, const T& u, const T& s) {
-    add_azimuth(light, s * u / (1.0 - light.mass * u));
-    const T at = light.d(u) / square(u);
-    delta = delta * select(s > 0.0, at, 1.0 / at);
-    radius = radius + s / u;
-  }
-  void add_azimuth(const SeparatedLight& light, const T& g_here) {
+    const T g_here = s * u / (1.0 - light.mass * u);
     g = (g + g_here) / (1.0 + light.half_gap_squared() * g * g_here);
+    if constexpr (Timed) {
+      const T u_sq = square(u), d = light.d(u);
+      const auto forward = s > 0.0;
+      delta = delta * (select(forward, d, u_sq) / select(forward, u_sq, d));
+      radius = radius + s / u;
+    }
   }
 };
 
@@ -139,7 +139,9 @@ class Lanes {
     set_lane(constants_.polar_constant, i, p.polar_constant);
     set_lane(constants_.spin_squared, i, p.spin_squared);
     set_lane(constants_.time_constant, i, batch_.light.spin * (ray.lambda - batch_.light.spin));
-    set_lane(constants_.size_squared, i, abs(p.polar_constant) + 27.0 * mass_sq + 1e-200);
+    const double size_squared = abs(p.polar_constant) + 27.0 * mass_sq + 1e-200;
+    set_lane(constants_.size_squared, i, size_squared);
+    set_lane(constants_.inverse_size_squared, i, 1.0 / size_squared);
     // The direction turns by at most one and a half radians a step, so that half-plane crossings are not missed.
     set_lane(longest_, i, 1.5 / sqrt(abs(p.polar_constant) + p.spin_squared + 1e-200));
 
@@ -173,27 +175,17 @@ class Lanes {
     h = select(last, left, h);
 
     T u, u_rate;
-    radius_at(series_, h, u, u_rate);
+    evaluate(series_.u, h, u, u_rate);
     const Bool turned = state_.u_rate * u_rate < 0.0;
     Bool out = (u < batch_.u_escape) & (u_rate < 0.0) & active_;
     Bool in = (u > batch_.u_capture) & (u_rate > 0.0) & active_;
     T from = 0.0;  // a stop that is met lies between here and h
-    if (any(turned & active_)) check_turns(from, h, turned, out, in);
+    if (any(turned & active_) && check_turns(from, h, turned, out, in)) evaluate(series_.u, h, u, u_rate);
     const Bool stopped = out | in;
-    if (any(stopped)) {
-      const T stop = select(out, T(batch_.u_escape), T(batch_.u_capture));
-      const Bool met = stopped & (from < h);
-      h = select(met, meet(stop, out, from, h, met), h);
-      radius_at(series_, h, u, u_rate);
-      u = select(met, stop, u);
-      // There U gives the rate without the series' error, which the affine length would multiply by r; not at a turn,
-      // where the root loses digits.
-      const T slope_sq = radial_potential(stop);
-      u_rate = select(met & (slope_sq > 0.01), copysign(sqrt(slope_sq), u_rate), u_rate);
-    }
+    if (any(stopped)) stop_at(stopped, out, from, h, u, u_rate);
 
     const T y_before = state_.n[1];
-    rest_at(series_, h, state_);
+    advance_rest(series_, h, state_);
     state_.u = u;
     state_.u_rate = u_rate;
     restore_radial_integral(stopped);
@@ -225,7 +217,7 @@ class Lanes {
   void restore_radial_integral(const Bool& stopped) {
     const T off = square(state_.u_rate) - radial_potential(state_.u);
     const T force = radial_force(state_.u);
-    const T scaled = force / constants_.size_squared;
+    const T scaled = force * constants_.inverse_size_squared;
     const T gradient = scaled * force + square(state_.u_rate);
     const T change = select((abs(off) < 0.01 * gradient) & !stopped, 0.5 * off / gradient, T(0.0));
     state_.u = state_.u + change * scaled;
@@ -251,7 +243,7 @@ class Lanes {
     const T branch = select(state_.u_rate < 0.0, -sign_p_, sign_p_);
     const Bool changed = (branch != branch_) & active_;
     if (!any(changed)) return;
-    BranchSums<T> turned = sums_;
+    BranchSums<T, Timed> turned = sums_;
     turned.add(batch_.light, state_.u, branch_);
     turned.add(batch_.light, state_.u, branch_);
     sums_.g = select(changed, turned.g, sums_.g);
@@ -261,8 +253,8 @@ class Lanes {
   }
 
   /// Where a ray turns within a step it may pass a stop and come back: looks at the turning point itself, but only if
-  /// the size of the series allows it to lie beyond a stop.
-  void check_turns(T& from, T& h, const Bool& turned, Bool& out, Bool& in) {
+  /// the size of the series allows it to lie beyond a stop. True if it did look.
+  [[nodiscard]] bool check_turns(T& from, T& h, const Bool& turned, Bool& out, Bool& in) {
     T spread = abs(series_.u[static_cast<std::size_t>(N)]);
     for (std::size_t k = static_cast<std::size_t>(N); k-- > 1;) spread = spread * h + abs(series_.u[k]);
     spread = spread * h;
@@ -271,6 +263,7 @@ class Lanes {
     for (int i = 0; i < width; ++i) {
       if (lane(near, i)) turn_near_a_stop(i, from, h, out, in);
     }
+    return any(near);
   }
 
   /// u and u' of lane i at tau = s.
@@ -315,21 +308,37 @@ class Lanes {
     return u * (constants_.c2 + u * (constants_.three_halves_c3 + u * constants_.twice_c4));
   }
 
-  /// The tau at which each lane of `met` has u = stop, to round-off: tau as a function of u expanded about the stop,
-  /// where u' and u'' are known, corrects the guess by three orders a time. Other lanes are left as they are.
-  [[nodiscard]] T meet(const T& stop, const Bool& out, const T& from, const T& h, const Bool& met) {
+  /// Shortens the step of stopped lanes to end on their stop, where u' is known from U: without the series' error,
+  /// which the affine length would multiply by r. Not so where the ray turns, and the root of U loses digits.
+  void stop_at(const Bool& stopped, const Bool& out, const T& from, T& h, T& u, T& u_rate) {
+    const T stop = select(out, T(batch_.u_escape), T(batch_.u_capture));
     const T slope_sq = radial_potential(stop);
-    const T force = radial_force(stop);
     const T size = sqrt(max(slope_sq, T(0.0)));
     const T slope = select(out, -size, size);
-    const T bend = 0.5 * force / slope_sq;
-    T s = h;
+    const Bool met = stopped & (from < h);
+    const Bool exact = met & (slope_sq > 0.01);
+    h = select(met, meet(stop, slope_sq, slope, from, h, u, met), h);
+    if (any(stopped & !exact)) evaluate(series_.u, h, u, u_rate);
+    u = select(met, stop, u);
+    u_rate = select(exact, slope, u_rate);
+  }
+
+  /// The tau at which each lane of `met` has u = stop, to round-off: tau as a function of u expanded about the stop,
+  /// where u' and u'' are known, corrects the guess by three orders a time. `u` is that at h.
+  [[nodiscard]] T meet(const T& stop, const T& slope_sq, const T& slope, const T& from, const T& h, const T& u,
+                       const Bool& met) {
+    const T bend = 0.5 * radial_force(stop) / slope_sq;
+    const T inverse_slope = 1.0 / slope;
+    T s = h, off = u - stop;
     Bool going = met;
-    for (int iteration = 0; iteration < 8 && any(going); ++iteration) {
-      const T off = inverse_radius_at(series_, s) - stop;
-      const T change = off * (1.0 - bend * off) / slope;
+    for (int iteration = 0; iteration < 8; ++iteration) {
+      const T curved = bend * off;
+      const T change = off * (1.0 - curved) * inverse_slope;
       s = select(going, s - change, s);
-      going = going & !(abs(change) <= 1e-15 * abs(s));
+      // What is left is of the third order in these.
+      going = going & !((abs(change) <= 1e-6 * abs(s)) & (abs(curved) <= 1e-6));
+      if (!any(going)) break;
+      off = value_at(series_.u, s) - stop;
     }
     const Bool missed = met & !((s >= from) & (s <= h) & !going);
     for (int i = 0; i < width; ++i) {
@@ -441,14 +450,14 @@ class Lanes {
   State<T> state_{};
   Series<T, N, Timed> series_{};
   T longest_{}, mino_{}, windings_{}, steps_{}, sign_p_{}, branch_{};
-  BranchSums<T> sums_{};
+  BranchSums<T, Timed> sums_{};
 
   int waiting_ = 0;  ///< rays that have ended and are not finished
   std::array<std::size_t, slots> waiting_index_{};
   std::array<Status, slots> waiting_status_{};
   State<T> ended_{};
   T ended_branch_{}, ended_mino_{}, ended_windings_{}, ended_steps_{};
-  BranchSums<T> ended_sums_{};
+  BranchSums<T, Timed> ended_sums_{};
 };
 
 }  // namespace xpr::first_integrals

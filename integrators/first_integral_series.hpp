@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -23,7 +24,8 @@ struct Constants {
   T polar_constant;  ///< eta + lambda^2
   T spin_squared;    ///< a^2
   T time_constant;   ///< a (lambda - a)
-  T size_squared;    ///< of the ray, a length: what errors of u and t are measured with
+  T size_squared;    ///< of the ray, a length squared: what errors of u and t are measured with
+  T inverse_size_squared;
 };
 
 /// What is integrated: u and n with their rates, the integrals of F (azimuth), dt/dtau and Sigma without what is known
@@ -59,8 +61,6 @@ struct Series {
   }
 };
 
-namespace detail {
-
 /// f(j) for j = Begin ... End - 1, j being a constant.
 template <std::size_t Begin, std::size_t End, class F>
 [[gnu::always_inline]] inline void unrolled(const F& f) {
@@ -70,31 +70,26 @@ template <std::size_t Begin, std::size_t End, class F>
   }
 }
 
-/// 1/k for the orders in use; 0 stands for 1/0.
-inline constexpr std::array<double, 40> reciprocal = [] {
-  std::array<double, 40> table{};
-  for (std::size_t k = 1; k < table.size(); ++k) table[k] = 1.0 / static_cast<double>(k);
-  return table;
-}();
+[[nodiscard]] constexpr double reciprocal(std::size_t k) { return 1.0 / static_cast<double>(k); }
 
-/// Coefficient K of f^2 and of g^2, whose sums overlap in the processor; each product of two different coefficients
-/// counts twice.
+namespace detail {
+
+/// Coefficients K and K + 1 of f^2 for even K; each product of two different coefficients counts twice.
 template <std::size_t K, class A, class T>
-[[gnu::always_inline]] inline void square_terms(const A& f, const A& g, T& f_sq, T& g_sq) {
-  f_sq = f[0] * f[K];
-  g_sq = g[0] * g[K];
-  if constexpr (K > 0) {
-    unrolled<1, (K + 1) / 2>([&](auto j) {
-      f_sq = f_sq + f[j] * f[K - j];
-      g_sq = g_sq + g[j] * g[K - j];
+[[gnu::always_inline]] inline void square_terms(const A& f, T& even, T& odd) {
+  odd = f[0] * f[K + 1];
+  if constexpr (K == 0) {
+    even = f[0] * f[0];
+  } else {
+    even = f[0] * f[K];
+    unrolled<1, K / 2>([&](auto j) {
+      even = even + f[j] * f[K - j];
+      odd = odd + f[j] * f[K + 1 - j];
     });
-    f_sq = f_sq + f_sq;
-    g_sq = g_sq + g_sq;
-    if constexpr (K % 2 == 0) {
-      f_sq = f_sq + f[K / 2] * f[K / 2];
-      g_sq = g_sq + g[K / 2] * g[K / 2];
-    }
+    odd = odd + f[K / 2] * f[K / 2 + 1];
+    even = (even + even) + f[K / 2] * f[K / 2];
   }
+  odd = odd + odd;
 }
 
 /// Order K of the azimuth, F = S Y, of dt/dtau = Y + a^2 F + a^2 n_z^2 + a (lambda - a), and of Sigma with
@@ -111,47 +106,55 @@ template <std::size_t K, class T, int N>
   series.affine[K] = (1.0 / 3.0) * c.three_halves_c3 * series.u[K] + 0.5 * c.twice_c4 * u_sq[K] + c.spin_squared * z_sq;
 }
 
-/// Order K of every series from the orders below it.
+/// Order K of the division by P + s u'; `z_sq` is that of n_z^2.
 template <std::size_t K, class T, int N, bool Timed>
-[[gnu::always_inline]] inline void expand_order(const Constants<T>& c, const T& branch, Series<T, N, Timed>& series) {
-  auto& u = series.u;
-  auto& x = series.n[0];
-  auto& y = series.n[1];
-  auto& z = series.n[2];
-  auto& u_sq = series.u_sq;
+[[gnu::always_inline]] inline void expand_quotient(const Constants<T>& c, const T& branch, const T& z_sq,
+                                                   Series<T, N, Timed>& series) {
   auto& divisor = series.divisor;
   auto& quotient = series.quotient();
-  T z_sq;
-  square_terms<K>(u, z, u_sq[K], z_sq);
-
-  const T slope = c.p2 * u_sq[K] + static_cast<double>(K + 1) * branch * u[K + 1];
+  const T slope = c.p2 * series.u_sq[K] + static_cast<double>(K + 1) * branch * series.u[K + 1];
   divisor[K] = K == 0 ? T(1.0 / (1.0 + slope)) : T(slope * divisor[0]);
   // Timed: Y = kappa / (P + s u'); else F = kappa S / (P + s u') at once.
-  T sum = (c.kappa * divisor[0]) * (Timed ? T(K == 0 ? 1.0 : 0.0) : u_sq[K]);
-  if constexpr (K + 1 < N) {
-    auto& q = series.q;
-    auto& w = series.w;
-    q[K] = c.three_halves_c3 * u[K] + c.twice_c4 * u_sq[K];
-    w[K] = (c.spin_squared + c.spin_squared) * z_sq;
-    if constexpr (K == 0) q[0] = q[0] + c.c2, w[0] = w[0] + c.polar_constant;
-    T sum_u = q[0] * u[K], sum_x = w[0] * x[K], sum_y = w[0] * y[K], sum_z = w[0] * z[K];
-    unrolled<1, K + 1>([&](auto j) {
-      sum_u = sum_u + q[j] * u[K - j];
-      sum_x = sum_x + w[j] * x[K - j];
-      sum_y = sum_y + w[j] * y[K - j];
-      sum_z = sum_z + w[j] * z[K - j];
-      sum = sum - divisor[j] * quotient[K - j];
-    });
-    constexpr double scale = 1.0 / static_cast<double>((K + 1) * (K + 2));
-    u[K + 2] = scale * sum_u;
-    x[K + 2] = -scale * sum_x;
-    y[K + 2] = -scale * sum_y;
-    z[K + 2] = scale * (c.spin_squared * z[K] - sum_z);
-  } else {
-    unrolled<1, K + 1>([&](auto j) { sum = sum - divisor[j] * quotient[K - j]; });
-  }
+  T sum = (c.kappa * divisor[0]) * (Timed ? T(K == 0 ? 1.0 : 0.0) : series.u_sq[K]);
+  unrolled<0, K>([&](auto j) { sum = sum - divisor[K - j] * quotient[j]; });
   quotient[K] = sum;
   if constexpr (Timed) expand_times<K>(c, z_sq, series);
+}
+
+/// Orders K and K + 1 of every series, K even, from the orders below: both equations are of second order, so u and n
+/// are known one order ahead and two orders can share what they read.
+template <std::size_t K, class T, int N, bool Timed>
+[[gnu::always_inline]] inline void expand_pair(const Constants<T>& c, const T& branch, Series<T, N, Timed>& series) {
+  constexpr bool two = K + 2 < N;  // the highest order of u and n is N
+  auto& q = series.q;
+  auto& w = series.w;
+  auto& u_sq = series.u_sq;
+  std::array<T, 2> z_sq;
+  square_terms<K>(series.u, u_sq[K], u_sq[K + 1]);
+  square_terms<K>(series.n[2], z_sq[0], z_sq[1]);
+  for (std::size_t i = 0; i < 2; ++i) {
+    q[K + i] = c.three_halves_c3 * series.u[K + i] + c.twice_c4 * u_sq[K + i];
+    w[K + i] = (c.spin_squared + c.spin_squared) * z_sq[i];
+  }
+  if constexpr (K == 0) q[0] = q[0] + c.c2, w[0] = w[0] + c.polar_constant;
+
+  const auto multiply = [&](const auto& f, auto& g, double sign) {
+    T even = f[0] * g[K], odd = f[0] * g[K + 1];
+    unrolled<1, K + 1>([&](auto j) {
+      even = even + f[j] * g[K - j];
+      if constexpr (two) odd = odd + f[j] * g[K + 1 - j];
+    });
+    g[K + 2] = (sign / static_cast<double>((K + 1) * (K + 2))) * even;
+    if constexpr (two) g[K + 3] = (sign / static_cast<double>((K + 2) * (K + 3))) * (odd + f[K + 1] * g[0]);
+  };
+  multiply(q, series.u, 1.0);
+  for (auto& n : series.n) multiply(w, n, -1.0);
+  auto& z = series.n[2];
+  z[K + 2] = z[K + 2] + (1.0 / static_cast<double>((K + 1) * (K + 2))) * (c.spin_squared * z[K]);
+  if constexpr (two) z[K + 3] = z[K + 3] + (1.0 / static_cast<double>((K + 2) * (K + 3))) * (c.spin_squared * z[K + 1]);
+
+  expand_quotient<K>(c, branch, z_sq[0], series);
+  expand_quotient<K + 1>(c, branch, z_sq[1], series);
 }
 
 }  // namespace detail
@@ -165,55 +168,52 @@ void expand(const Constants<T>& c, const State<T>& y, const T& branch, Series<T,
     series.n[i][0] = y.n[i];
     series.n[i][1] = y.n_rate[i];
   }
-  [&]<std::size_t... K>(std::index_sequence<K...>) { (detail::expand_order<K>(c, branch, series), ...); }
-  (std::make_index_sequence<static_cast<std::size_t>(N)>{});
+  static_assert(N % 2 == 0);
+  [&]<std::size_t... K>(std::index_sequence<K...>) { (detail::expand_pair<2 * K>(c, branch, series), ...); }
+  (std::make_index_sequence<static_cast<std::size_t>(N / 2)>{});
 }
 
-/// u and u' at tau = s from the step's beginning.
-template <class T, int N, bool Timed>
-[[gnu::always_inline]] inline void radius_at(const Series<T, N, Timed>& series, const T& s, T& u, T& u_rate) {
-  u = series.u[N];
-  u_rate = u;
-  u = u * s + series.u[N - 1];
-  for (std::size_t k = N - 1; k-- > 0;) {
-    u_rate = u_rate * s + u;
-    u = u * s + series.u[k];
-  }
+/// A polynomial and its derivative at s.
+template <class A, class T>
+[[gnu::always_inline]] inline void evaluate(const A& coefficients, const T& s, T& value, T& rate) {
+  constexpr std::size_t top = std::tuple_size_v<A> - 1;
+  T f = coefficients[top];
+  T slope = f;
+  f = f * s + coefficients[top - 1];
+  unrolled<2, top + 1>([&](auto k) {
+    slope = slope * s + f;
+    f = f * s + coefficients[top - k];
+  });
+  value = f;
+  rate = slope;
 }
 
-/// u alone.
-template <class T, int N, bool Timed>
-[[nodiscard, gnu::always_inline]] inline T inverse_radius_at(const Series<T, N, Timed>& series, const T& s) {
-  T u = series.u[N];
-  for (std::size_t k = N; k-- > 0;) u = u * s + series.u[k];
-  return u;
+/// A polynomial of even order alone: even and odd powers apart, so that one waits half as long.
+template <class A, class T>
+[[nodiscard, gnu::always_inline]] inline T value_at(const A& coefficients, const T& s) {
+  constexpr std::size_t top = std::tuple_size_v<A> - 1;
+  const T s_sq = s * s;
+  T even = coefficients[top], odd = coefficients[top - 1];
+  unrolled<1, top / 2>([&](auto k) {
+    even = even * s_sq + coefficients[top - 2 * k];
+    odd = odd * s_sq + coefficients[top - 2 * k - 1];
+  });
+  return (even * s_sq + coefficients[0]) + odd * s;
 }
 
 /// The integral of a series from 0 to s.
 template <class A, class T>
 [[nodiscard, gnu::always_inline]] inline T integral(const A& rate, const T& s) {
-  std::size_t k = rate.size();
-  T sum = detail::reciprocal[k] * rate[k - 1];
-  for (--k; k > 0; --k) sum = sum * s + detail::reciprocal[k] * rate[k - 1];
+  constexpr std::size_t count = std::tuple_size_v<A>;
+  T sum = reciprocal(count) * rate[count - 1];
+  unrolled<1, count>([&](auto k) { sum = sum * s + reciprocal(count - k) * rate[count - k - 1]; });
   return sum * s;
 }
 
-/// Everything but u and its rate at tau = s; the integrals go on from those of `y`.
+/// Direction and integrals at tau = s from the step's beginning; the integrals go on from those of `y`.
 template <class T, int N, bool Timed>
-[[gnu::always_inline]] inline void rest_at(const Series<T, N, Timed>& series, const T& s, State<T>& y) {
-  std::array<T, 3> n, rate;
-  for (std::size_t i = 0; i < 3; ++i) {
-    rate[i] = series.n[i][N];
-    n[i] = rate[i] * s + series.n[i][N - 1];
-  }
-  for (std::size_t k = N - 1; k-- > 0;) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      rate[i] = rate[i] * s + n[i];
-      n[i] = n[i] * s + series.n[i][k];
-    }
-  }
-  y.n = n;
-  y.n_rate = rate;
+[[gnu::always_inline]] inline void advance_rest(const Series<T, N, Timed>& series, const T& s, State<T>& y) {
+  unrolled<0, 3>([&](auto i) { evaluate(series.n[i], s, y.n[i], y.n_rate[i]); });
   y.azimuth = y.azimuth + integral(series.azimuth, s);
   if constexpr (Timed) {
     y.time = y.time + integral(series.time, s);
@@ -236,10 +236,10 @@ template <class T>
 template <class T, int N, bool Timed>
 [[nodiscard]] T step_size(const Constants<T>& c, const Series<T, N, Timed>& series, double tol) {
   const auto term_squared = [&](std::size_t k) {
-    const double scale = detail::reciprocal[k] * detail::reciprocal[k];
+    const double scale = square(reciprocal(k));
     T sum = c.size_squared * square(series.u[k]) + square(series.n[0][k]) + square(series.n[1][k]) +
             square(series.n[2][k]) + scale * (c.spin_squared * square(series.azimuth[k - 1]));
-    if constexpr (Timed) sum = sum + scale * (square(series.time[k - 1]) / c.size_squared);
+    if constexpr (Timed) sum = sum + scale * (square(series.time[k - 1]) * c.inverse_size_squared);
     return sum + 1e-250;  // where nothing changes the step is long, not infinite
   };
   const T last = rough_root(T(tol * tol) / term_squared(N), 2.0 * N);
