@@ -130,7 +130,9 @@ void PolarMotion::set_one_side(const UnitConstants& constants) {
 }
 
 void PolarMotion::set_phase(const Phase& given) {
-  const double sine_squared = std::min(given.sine_squared, 1.0), cosine_squared = std::min(given.cosine_squared, 1.0);
+  // At a turning point to the last digit the phase is the quarter itself, so that the point is not counted.
+  const double sine_squared = given.cosine_squared > 0.0 ? std::min(given.sine_squared, 1.0) : 1.0;
+  const double cosine_squared = given.sine_squared > 0.0 ? std::min(given.cosine_squared, 1.0) : 1.0;
   // The quarter period and the start side by side in two lanes.
   const auto lanes_of = [](double first, double second) {
     Pack<2> both(first);

@@ -265,6 +265,23 @@ Stretch across(const RadialMotion& m, const Wide& r_far, const Wide& r_near) {
   return stretch;
 }
 
+/// d/dtau of the sums where the ray is slowest: at the base next to a real pair, above the middle of a conjugate one.
+struct SlowRates {
+  double azimuth, time, affine;
+};
+
+SlowRates slow_rates(const RadialMotion& m, const Stretch& stretch, const Wide& r_far) {
+  double offset = 0.0;
+  if (stretch.kind == PairKind::complex_pair) {
+    const double slowest = 0.5 * static_cast<double>(m.s / m.p);
+    offset = std::clamp(slowest, 1.0 / static_cast<double>(r_far), stretch.u_base) - stretch.u_base;
+  }
+  const double r_outer = m.outer_horizon(), u = stretch.u_base + offset;
+  const double D = (stretch.outer_factor - r_outer * offset) * (stretch.inner_factor - m.a * m.a / r_outer * offset);
+  const double horizon = std::abs((stretch.n - m.a * m.lambda * offset) / D);
+  return {m.a * u * horizon, (1.0 / u + 2.0) / u + 2.0 * horizon, 1.0 / (u * u)};
+}
+
 /// Sums and their elementary parts, from r_far to r_near.
 RadialSums assembled(const RadialMotion& m, const Stretch& stretch, const Wide& r_far, const Wide& r_near) {
   const Sums sums = over_stretch(m, stretch);
@@ -292,15 +309,16 @@ RadialSums assembled(const RadialMotion& m, const Stretch& stretch, const Wide& 
   }
   // Each sum has some 20 ... 100 terms of one sign nearly always; its rounding grows as the root of their number.
   constexpr double rounding = 16.0 * epsilon;
-  // A shift of r3 and r4 against each other acts as the start of the approach shifted by half its relative size.
-  const double shift = m.gap_error / std::sqrt(std::abs(static_cast<double>(m.p)) + 1e-300);
-  const double slow = static_cast<double>(m.p) > 0.0 ? shift : 0.0;
-  result.mino_error = rounding * sums.tau + slow;
-  result.affine_error = rounding * (fall + std::abs(sums.x)) + slow * std::abs(m.A);
+  // A change of the pair's gap lengthens or shortens the stay next to it, by half its relative size.
+  const double p = std::abs(static_cast<double>(m.p));
+  const double stay = p > 0.0 ? m.gap_error / std::sqrt(p) : 0.0;
+  const SlowRates rates = slow_rates(m, stretch, r_far);
+  result.mino_error = rounding * sums.tau + stay;
+  result.affine_error = rounding * (fall + std::abs(sums.x)) + stay * rates.affine;
   result.time_error =
       rounding * (fall + std::abs(sums.x) + 2.0 * (logarithm + std::abs(sums.ux) + std::abs(sums.y) + horizon_part)) +
-      slow * (std::abs(m.A) + 100.0);
-  result.azimuth_error = rounding * m.a * (std::abs(sums.uy) + horizon_part) + slow * 10.0;
+      stay * rates.time;
+  result.azimuth_error = rounding * m.a * (std::abs(sums.uy) + horizon_part) + stay * rates.azimuth;
   return result;
 }
 

@@ -103,14 +103,15 @@ RadialMotion::RadialMotion(const UnitConstants& given) : constants(given) {
   quarter_gap = scaled(s * s, 0.25) - p;
   const double gap = std::abs(quarter_gap.high), middle = 0.5 * s.high;
   gap_error = wide_epsilon * (middle * middle + std::abs(p.high)) / gap;
-  spherical = !(gap_error < 0.25) && middle > outer_horizon();
+  const bool beyond_horizon = above_outer_horizon(scaled(s, 0.5)) > 0.0;
+  spherical = !(gap_error < 0.25) && beyond_horizon;
   kind = quarter_gap.high > 0.0 || spherical ? PairKind::real_pair : PairKind::complex_pair;
   if (kind == PairKind::real_pair) {
     // Where the pair has merged any tiny gap serves: nothing passes it.
     const Wide half_gap = spherical ? Wide(1e-18 * middle) : sqrt(quarter_gap);
     r4 = scaled(s, 0.5) + half_gap;
     r3 = scaled(s, 0.5) - half_gap;
-    turns_outside = middle > outer_horizon();
+    turns_outside = beyond_horizon;
   }
   const Wide far_gap = scaled(s * s, 0.25) - q;
   far_roots_real = far_gap.high >= 0.0;

@@ -16,7 +16,8 @@
 //
 // Plain doubles, Wide numbers where they cancel. Every answer says how far it may be off (as ExactValue does) at the
 // stored doubles of the arguments; that is 1e-15 of the larger of 1 and the number in the median, with bounds some
-// thirty times that. Next to the critical curve no digit is lost until 1 - b/b_c is 1e-14 or less.
+// thirty times that. Next to the critical curve no digit is lost until 1 - b/b_c is 1e-14 or less. At a = M, where part
+// of that curve belongs to the horizon itself, digits go from 1e-8 on, and the bounds grow with them.
 // Cites: [Carter1968] [GrallaLupsasca2020Geodesics] [DexterAgol2009] [Carlson1995]
 #pragma once
 

@@ -109,8 +109,9 @@ PreparedStart prepared(const RayHole& hole, const RayStart& start) {
     throw std::domain_error(fmt::format("eta = {} at theta = {} with lambda = {}: Theta < 0, no light passes there",
                                         start.eta, start.theta, start.lambda));
   }
-  polar.rate_squared = std::max(rate, 0.0);
-  polar.rate_squared_error = epsilon * std::abs(rate) + 0x1p-98 * size + std::max(-rate, 0.0);
+  const double unknown = 0x1p-98 * size;  // below it the start is the turning point
+  polar.rate_squared = rate > unknown ? rate : 0.0;
+  polar.rate_squared_error = epsilon * std::abs(rate) + unknown + std::max(-rate, 0.0);
   polar.direction = polar_direction(polar, start.polar_sign);
   return {.mass = hole.mass,
           .orientation = orientation,

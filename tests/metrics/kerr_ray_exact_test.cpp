@@ -110,6 +110,39 @@ TEST(KerrRay, class_is_right_next_to_the_edge_of_the_shadow) {
   }
 }
 
+// Neighbouring doubles on both sides of the edge: R at its least outside the horizon, to 50 digits, tells whether light
+// from afar turns.
+TEST(KerrRay, class_is_right_to_the_last_double) {
+  using exact_kit::Mp;
+  for (const double spin : {0.0, 0.3, 0.9, 0.998, 1.0}) {
+    for (const double angle : {-3.0, -1.3, 0.2, 1.1, 2.4}) {
+      const auto start = [&](double size) {
+        return kerr_ray_sweep::Camera{spin, 1000.0, 60 * degree}.at(size * std::cos(angle), size * std::sin(angle));
+      };
+      const auto captured = [&](double size) {
+        return KerrRay(RayHole{1.0, spin}, start(size)).fate() == Fate::captured;
+      };
+      double inside = 0.5, outside = 9.0;
+      while (std::nextafter(inside, outside) < outside) {
+        const double middle = 0.5 * (inside + outside);
+        (captured(middle) ? inside : outside) = middle;
+      }
+      for (const double size : {inside, outside, std::nextafter(inside, 0.0), std::nextafter(outside, 10.0)}) {
+        const RayStart ray = start(size);
+        const Mp a = spin, xi = ray.lambda, K = ray.eta + (xi - a) * (xi - a);
+        // R' = 4 r (r^2 + a^2 - a xi) - 2 (r - 1) K by Newton's rule, from the middle of r3 and r4.
+        Mp r = static_cast<double>(RadialMotion({spin, ray.lambda, ray.eta}).s) / 2;
+        for (int i = 0; i < 20; ++i) {
+          r -= (4 * r * (r * r + a * a - a * xi) - 2 * (r - 1) * K) / (12 * r * r + 4 * (a * a - a * xi) - 2 * K);
+        }
+        r = std::max(r, Mp(1 + sqrt((1 - a) * (1 + a))));
+        const Mp least = kerr_exact::radial_potential(Mp(1), a, {Mp(1), xi, Mp(ray.eta)}, r);
+        EXPECT_EQ(captured(size), least > 0) << spin << ' ' << angle << ' ' << size << ": R = " << least;
+      }
+    }
+  }
+}
+
 TEST(KerrRay, equatorial_rays_are_the_known_closed_forms) {
   for (const double spin : {-0.9, 0.0, 0.5, 0.998}) {
     for (const double b : {-12.0, -7.5, 7.25, 30.0}) {

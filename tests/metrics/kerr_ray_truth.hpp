@@ -134,7 +134,14 @@ End<T> followed(const Ray<T>& ray, const T& r_end, int end_sign) {
   const T P = one + u * u * (A + u * (T(2.0) * K - u * a2 * ray.eta));
   const T s2 = ray.sine * ray.sine;
   T u_rate = T(-1.0 * ray.radial_sign) * square_root(P);
-  T c_rate = T(-1.0 * ray.polar_sign) * square_root(T(ray.eta * s2 + c * c * (a2 * s2 - ray.lambda * ray.lambda)));
+  const T rate_squared = ray.eta * s2 + c * c * (a2 * s2 - ray.lambda * ray.lambda);
+  // A start at a turning point of theta to thirty digits is one.
+  const double size =
+      static_cast<double>(ray.eta * ray.eta + a2 * a2 + ray.lambda * ray.lambda * ray.lambda * ray.lambda);
+  T c_rate = T(0.0);
+  if (static_cast<double>(rate_squared) > 0x1p-98 * std::sqrt(size)) {
+    c_rate = T(-1.0 * ray.polar_sign) * square_root(rate_squared);
+  }
   End<T> end;
   for (int steps = 0; steps < 20000; ++steps) {
     const Expansion<T> y(ray, u, u_rate, c, c_rate);
