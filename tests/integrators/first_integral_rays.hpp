@@ -53,8 +53,9 @@ inline std::vector<SeparatedState> screen_rays(const SeparatedLight& light, int 
     const double eta = (alpha * alpha - light.spin * light.spin) * std::cos(theta) * std::cos(theta) + beta * beta;
     const SeparatedPotentials p = separated_potentials(light, lambda, eta);
     if (p.radial(1.0 / r) < 0.0) continue;
-    rays.push_back(
-        separated_start(light, lambda, eta, dice() < 0.5 ? 1.0 : -1.0, 1.0 / r, theta, dice() < 0.2, beta > 0.0));
+    const double energy_sign = dice() < 0.5 ? 1.0 : -1.0;
+    const bool outward = dice() < 0.2;
+    rays.push_back(separated_start(light, lambda, eta, energy_sign, 1.0 / r, theta, outward, beta > 0.0));
   }
   return rays;
 }
