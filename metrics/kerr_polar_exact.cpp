@@ -145,7 +145,7 @@ void PolarMotion::set_phase(const Phase& given) {
     return Integrals<double>{lane(both.tau, i), lane(both.sine_squared, i), lane(both.pole, i)};
   };
   quarter_ = part(0), begin_ = part(1);
-  if (given.falling) {
+  if (given.falling && cosine_squared > 0.0) {
     begin_.tau = 2.0 * quarter_.tau - begin_.tau;
     begin_.sine_squared = 2.0 * quarter_.sine_squared - begin_.sine_squared;
     begin_.pole = 2.0 * quarter_.pole - begin_.pole;
