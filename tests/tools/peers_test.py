@@ -169,10 +169,10 @@ class BadInput(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def refuse(self, *arguments, says):
-        """One clear line and exit code 2. A gyoto that cannot be imported stands before any that is installed."""
-        (self.folder / "gyoto").mkdir()
-        (self.folder / "gyoto/__init__.py").write_text("raise ImportError('a stub without GYOTO')\n", encoding="utf-8")
+    def refuse(self, *arguments, says, without="gyoto"):
+        """One clear line and exit code 2. A module that cannot be imported stands before any that is installed."""
+        (self.folder / without).mkdir()
+        (self.folder / without / "__init__.py").write_text("raise ImportError('a stub')\n", encoding="utf-8")
         environment = {**os.environ, "PYTHONPATH": str(self.folder)}
         done = subprocess.run([sys.executable, "-B", str(PEERS / "gyoto_kerr.py"), *arguments], capture_output=True,
                               text=True, check=False, timeout=60, env=environment, cwd=self.folder)
@@ -189,6 +189,9 @@ class BadInput(unittest.TestCase):
 
     def test_without_gyoto_it_says_what_to_install(self):
         self.refuse("--xprimeray", sys.executable, says="apt-get install --no-install-recommends python3-gyoto")
+
+    def test_without_numpy_it_says_which_python_has_it(self):
+        self.refuse("--xprimeray", sys.executable, says="numpy is not installed", without="numpy")
 
     def test_numbers_need_to_be_positive(self):
         self.refuse("--pixels", "0", says="--pixels: invalid positive int value: '0'")
