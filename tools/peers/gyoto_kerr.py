@@ -229,7 +229,8 @@ def succeed(command, allowed=(0,)):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode not in allowed:
         reason = (done.stderr.strip().splitlines() or ["no message"])[-1]
-        raise (Refused if done.returncode == 2 else Failed)(f"{' '.join(command)}: exit code {done.returncode}: {reason}")
+        kind = Refused if done.returncode == 2 else Failed
+        raise kind(f"{' '.join(command)}: exit code {done.returncode}: {reason}")
     return done.stdout
 
 
