@@ -27,8 +27,9 @@ inline constexpr std::array<bool, 4> only_time_ignorable{true, false, false, fal
 inline constexpr std::array<bool, 4> time_and_azimuth_ignorable{true, false, false, true};
 
 /// Whether no component is NaN or infinite.
-[[nodiscard]] inline bool all_finite(const Vec4<double>& x) {
-  return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]) && std::isfinite(x[3]);
+template <class T>
+[[nodiscard]] constexpr MaskOf<T> all_finite(const Vec4<T>& x) {
+  return isfinite(x[0]) & isfinite(x[1]) & isfinite(x[2]) & isfinite(x[3]);
 }
 
 /// |x| of the spatial part.

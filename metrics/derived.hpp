@@ -184,14 +184,27 @@ template <MetricModule M>
   return out;
 }
 
+/// Whether physics and chart admit the event: what the module itself says, and lengths within their card's ranges. An
+/// angle beyond its range is a point too: the one that is reached over the axis, or once more around.
+template <MetricModule M, class T>
+[[nodiscard]] constexpr MaskOf<T> inside_domain(const M& metric, const Vec4<T>& x) {
+  MaskOf<T> inside(true);
+  if constexpr (requires { metric.inside_domain(x); }) inside = metric.inside_domain(x);
+  for (std::size_t mu = 0; mu < 4; ++mu) {
+    const Coordinate& coordinate = M::card.coordinates[mu];
+    if (coordinate.kind != CoordinateKind::time && coordinate.kind != CoordinateKind::length) continue;
+    inside = inside & (x[mu] >= coordinate.lower) & (x[mu] <= coordinate.upper);
+  }
+  return inside;
+}
+
 /// How far off the light cone y is: |g^{mu nu} p_mu p_nu| / (n.p)^2 = |2H| (-g^{tt}) / (p^t)^2, n being the unit normal
 /// to x^0 = const. Independent of the scale of p; defined where g^{tt} < 0.
-template <MetricModule M>
-[[nodiscard]] double null_residual(const M& metric, const PhaseState<double>& y) {
-  const SymTensor4<double> g = metric.inverse_metric(y.x());
-  const Vec4<double> v = raise_index(g, y.p());
-  const double residual = contract(y.p(), v) * -g(0, 0) / (v[0] * v[0]);
-  return residual < 0.0 ? -residual : residual;
+template <MetricModule M, class T>
+[[nodiscard]] constexpr T null_residual(const M& metric, const PhaseState<T>& y) {
+  const SymTensor4<T> g = metric.inverse_metric(y.x());
+  const Vec4<T> v = raise_index(g, y.p());
+  return abs(contract(y.p(), v) * -g(0, 0) / (v[0] * v[0]));
 }
 
 /// The Jacobian J^a_b = d map^a / d x^b of a point map between charts.

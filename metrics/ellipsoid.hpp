@@ -116,7 +116,10 @@ struct EllipsoidGeographic : Spheroid {
     return diagonal<double>(0.0, curvature * n_sq * square((1.0 - e_sq) / w_sq), curvature * n_sq * square(cos_lat),
                             0.0);
   }
-  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x); }
+  template <class T>
+  [[nodiscard]] constexpr MaskOf<T> inside_domain(const Vec4<T>& x) const {
+    return all_finite(x);
+  }
 
   [[nodiscard]] EllipsoidTurned atlas_partner() const;
   [[nodiscard]] std::optional<AtlasMove> atlas_switch(const PhaseState<double>& y, int sheet) const;
@@ -178,7 +181,10 @@ struct EllipsoidTurned : Spheroid {
     ricci(2, 2) = scale * (square(cos_beta) - k * square(d_lambda));
     return ricci;
   }
-  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x); }
+  template <class T>
+  [[nodiscard]] constexpr MaskOf<T> inside_domain(const Vec4<T>& x) const {
+    return all_finite(x);
+  }
 
   template <class T>
   [[nodiscard]] constexpr Vec4<T> to_hub(const Vec4<T>& x, int /*sheet*/) const {

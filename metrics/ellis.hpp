@@ -73,7 +73,10 @@ struct EllisIsotropic : EllisThroat {
   [[nodiscard]] constexpr auto killing_vectors(const Vec4<T>& x) const {
     return spherical_symmetry_cartesian(x);
   }
-  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x) && euclidean_radius(x) > 0.0; }
+  template <class T>
+  [[nodiscard]] constexpr MaskOf<T> inside_domain(const Vec4<T>& x) const {
+    return all_finite(x) & (euclidean_radius(x) > 0.0);
+  }
   /// R_ll = -2 b0^2 / r^4 alone, with dl = (1 + b0^2 / 4 rho^2) d rho = (r / rho) d rho.
   [[nodiscard]] SymTensor4<double> declared_ricci(const Vec4<double>& x) const {
     const double rho = euclidean_radius(x);
@@ -155,7 +158,10 @@ struct EllisProperDistance : EllisThroat {
   [[nodiscard]] constexpr auto killing_vectors(const Vec4<T>& x) const {
     return spherical_symmetry(x);
   }
-  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x); }
+  template <class T>
+  [[nodiscard]] constexpr MaskOf<T> inside_domain(const Vec4<T>& x) const {
+    return all_finite(x);
+  }
   [[nodiscard]] SymTensor4<double> declared_ricci(const Vec4<double>& x) const {
     return diagonal<double>(0.0, -2.0 * square(b0 / (square(b0) + square(x[1]))), 0.0, 0.0);
   }

@@ -165,7 +165,10 @@ struct KerrSchild : KerrParameters {
   }
 
   /// All of space but the disc r = 0; inside the horizon too.
-  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x) && radius(x) > 0.0; }
+  template <class T>
+  [[nodiscard]] constexpr MaskOf<T> inside_domain(const Vec4<T>& x) const {
+    return all_finite(x) & (radius(x) > 0.0);
+  }
 
   /// Boyer-Lindquist phi less the polar angle of (x, y): -s [Phi(r) + arg(r + ia)], which grows without bound towards
   /// the horizon.
@@ -247,8 +250,9 @@ struct KerrBoyerLindquist : KerrParameters {
     return square(y[6]) + square(cos_theta) * (square(over_sine(y[7], sin_theta)) - square(T(a)) * (p + square(y[4])));
   }
   /// r > 0 off the horizons, where t and phi diverge; between them too.
-  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const {
-    return all_finite(x) && x[1] > 0.0 && delta(x[1]) != 0.0;
+  template <class T>
+  [[nodiscard]] constexpr MaskOf<T> inside_domain(const Vec4<T>& x) const {
+    return all_finite(x) & (x[1] > 0.0) & (delta(x[1]) != 0.0);
   }
 
   template <class T>

@@ -158,7 +158,10 @@ struct Medium : Index {
       return spherical_symmetry_cartesian(x);
     }
   }
-  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x); }
+  template <class T>
+  [[nodiscard]] constexpr MaskOf<T> inside_domain(const Vec4<T>& x) const {
+    return all_finite(x);
+  }
 
   /// A static lapse N over flat space: R_tt = N div grad N, R_ij = -d_i d_j N / N.
   [[nodiscard]] SymTensor4<double> declared_ricci(const Vec4<double>& x) const requires requires(const Index& index) {

@@ -38,7 +38,10 @@ struct MinkowskiCartesian {
   [[nodiscard]] constexpr auto killing_vectors(const Vec4<T>& x) const {
     return euclidean_symmetry_cartesian(x);
   }
-  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x); }
+  template <class T>
+  [[nodiscard]] constexpr MaskOf<T> inside_domain(const Vec4<T>& x) const {
+    return all_finite(x);
+  }
 };
 
 struct MinkowskiSpherical {
@@ -66,7 +69,10 @@ struct MinkowskiSpherical {
   [[nodiscard]] constexpr auto killing_vectors(const Vec4<T>& x) const {
     return spherical_symmetry(x);
   }
-  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x) && x[1] > 0.0; }
+  template <class T>
+  [[nodiscard]] constexpr MaskOf<T> inside_domain(const Vec4<T>& x) const {
+    return all_finite(x) & (x[1] > 0.0);
+  }
 
   template <class T>
   [[nodiscard]] constexpr PhaseState<T> to_hub(const PhaseState<T>& y, int /*sheet*/) const {

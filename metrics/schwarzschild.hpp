@@ -85,7 +85,10 @@ struct SchwarzschildKerrSchild : SchwarzschildMass {
   [[nodiscard]] constexpr auto killing_vectors(const Vec4<T>& x) const {
     return spherical_symmetry_cartesian(x);
   }
-  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const { return all_finite(x) && radius(x) > 0.0; }
+  template <class T>
+  [[nodiscard]] constexpr MaskOf<T> inside_domain(const Vec4<T>& x) const {
+    return all_finite(x) & (radius(x) > 0.0);
+  }
 
   template <class T>
   requires(Direction < 0) [[nodiscard]] constexpr Vec4<T> to_hub(const Vec4<T>& x, int /*sheet*/) const {
@@ -132,8 +135,9 @@ struct SchwarzschildIsotropic : SchwarzschildMass {
   [[nodiscard]] constexpr auto killing_vectors(const Vec4<T>& x) const {
     return spherical_symmetry_cartesian(x);
   }
-  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const {
-    return all_finite(x) && euclidean_radius(x) > 0.5 * M;
+  template <class T>
+  [[nodiscard]] constexpr MaskOf<T> inside_domain(const Vec4<T>& x) const {
+    return all_finite(x) & (euclidean_radius(x) > 0.5 * M);
   }
 
   template <class T>
@@ -180,8 +184,9 @@ struct SchwarzschildAreal : SchwarzschildMass {
     return spherical_symmetry(x);
   }
   /// r > 0 off the horizon, where t diverges; inside it too, where r is the time.
-  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const {
-    return all_finite(x) && x[1] > 0.0 && x[1] != 2.0 * M;
+  template <class T>
+  [[nodiscard]] constexpr MaskOf<T> inside_domain(const Vec4<T>& x) const {
+    return all_finite(x) & (x[1] > 0.0) & (x[1] != 2.0 * M);
   }
 
   template <class T>

@@ -12,6 +12,7 @@
 
 #include "metrics/card.hpp"
 #include "metrics/derived.hpp"
+#include "metrics/lane_chart.hpp"
 #include "metrics/scalar/dual.hpp"
 #include "metrics/tensor.hpp"
 
@@ -86,6 +87,8 @@ class Spacetime {
   [[nodiscard]] virtual PhaseState<double> flow_of_side(const PhaseState<double>& y, bool inside) const = 0;
   /// Whether physics and chart admit the event.
   [[nodiscard]] virtual bool inside_domain(const Vec4<double>& x) const = 0;
+  /// The chart as batches of rays see it, at every width; lives as long as this.
+  [[nodiscard]] virtual LaneCharts lane_charts() const = 0;
 
   /// Whether H = T(p_i) + V(x^i, p_t) with p_t constant: what Stoermer-Verlet needs.
   [[nodiscard]] virtual bool separable() const = 0;

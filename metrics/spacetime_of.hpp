@@ -13,7 +13,8 @@
 //   double proper_distance(const Vec4<double>&, int sheet) const
 //   double interface_radius() const                                  where derivatives of the metric jump
 //   PhaseState<T> flow_of_side(const PhaseState<T>&, bool inside)   goes with it: the flow of either side, past it too
-//   bool inside_domain(const Vec4<double>&) const
+//   MaskOf<T> inside_domain(const Vec4<T>&) const
+//   static constexpr bool for_lanes                                  false: one ray at a time, less to compile
 //   to_hub, from_hub                                                 the map to the chart in which all charts meet:
 //     Vec4<T> to_hub(const Vec4<T>&, int sheet) const                as a point map, momenta by its Jacobian,
 //     PhaseState<T> to_hub(const PhaseState<T>&, int sheet) const    or on phase space, written out
@@ -29,6 +30,7 @@
 
 #include "metrics/atlas.hpp"
 #include "metrics/killing.hpp"
+#include "metrics/lane_chart.hpp"
 #include "metrics/spacetime.hpp"
 
 namespace xpr {
@@ -120,17 +122,10 @@ class SpacetimeOf final : public Spacetime {
     if constexpr (requires { module_.proper_distance(x, sheet); }) return module_.proper_distance(x, sheet);
     return std::nullopt;
   }
-  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const override {
-    if constexpr (requires { module_.inside_domain(x); }) {
-      if (!module_.inside_domain(x)) return false;
-    }
-    for (std::size_t mu = 0; mu < 4; ++mu) {
-      const Coordinate& coordinate = M::card.coordinates[mu];
-      // An angle beyond its range is a point too: the one that is reached over the axis, or once more around.
-      if (coordinate.kind != CoordinateKind::time && coordinate.kind != CoordinateKind::length) continue;
-      if (!(x[mu] >= coordinate.lower && x[mu] <= coordinate.upper)) return false;
-    }
-    return true;
+  [[nodiscard]] bool inside_domain(const Vec4<double>& x) const override { return xpr::inside_domain(module_, x); }
+  [[nodiscard]] LaneCharts lane_charts() const override {
+    if constexpr (for_lanes<M>) return lanes_.charts();
+    return {};
   }
 
   [[nodiscard]] bool separable() const override {
@@ -209,6 +204,7 @@ class SpacetimeOf final : public Spacetime {
   }
 
   M module_;
+  [[no_unique_address]] LanesOf<M> lanes_{module_};
   const Spacetime* partner_ = nullptr;
   std::unique_ptr<const Spacetime> owned_partner_;
 };
