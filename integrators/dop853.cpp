@@ -1,7 +1,5 @@
 #include "integrators/dop853.hpp"
 
-#include "metrics/scalar/elementary.hpp"
-
 namespace xpr {
 
 StepOutcome Dop853Stepper::step(const PhaseState<double>& y, double h) {
@@ -11,17 +9,7 @@ StepOutcome Dop853Stepper::step(const PhaseState<double>& y, double h) {
   StepOutcome out;
   out.y = dop853::step(counted_flow(), y, h, k_);
   end_step(out.y);
-
-  // The estimate of order 5, damped by that of order 3 so that the whole shrinks as h^8 (Hairer's combination).
-  PhaseState<double> fifth = dop853::weighted_rate<dop853::error_estimates, 0>(k_);
-  PhaseState<double> third = dop853::weighted_rate<dop853::error_estimates, 1>(k_);
-  for (std::size_t i = 0; i < 8; ++i) {
-    fifth[i] *= h;
-    third[i] *= h;
-  }
-  const double norm5 = error_norm(scale_, y, out.y, fifth);
-  const double norm3 = error_norm(scale_, y, out.y, third);
-  out.error_norm = norm5 == 0.0 ? 0.0 * norm3 : norm5 * norm5 / sqrt(norm5 * norm5 + 0.01 * norm3 * norm3);
+  out.error_norm = dop853::error_of_step(scale_, y, out.y, h, k_);
   return out;
 }
 

@@ -43,6 +43,23 @@ template <class T, class H, class FlowT>
   return stage<stages>(y, h, k);
 }
 
+/// The error estimate of a step in tolerances: that of order 5, damped by that of order 3 so that the whole shrinks as
+/// h^8 (Hairer's combination).
+template <class T>
+[[nodiscard]] T error_of_step(const ErrorScaleOf<T>& scale, const PhaseState<T>& y, const PhaseState<T>& end,
+                              const T& h, const Stages<T>& k) {
+  PhaseState<T> fifth = weighted_rate<error_estimates, 0>(k);
+  PhaseState<T> third = weighted_rate<error_estimates, 1>(k);
+  for (std::size_t i = 0; i < 8; ++i) {
+    fifth[i] = fifth[i] * h;
+    third[i] = third[i] * h;
+  }
+  const T norm5 = error_norm(scale, y, end, fifth);
+  const T norm3 = error_norm(scale, y, end, third);
+  const T damped = norm5 * norm5 / sqrt(norm5 * norm5 + 0.01 * norm3 * norm3);
+  return select(norm5 == 0.0, 0.0 * norm3, damped);
+}
+
 /// The three further stages of the dense output. On entry k[0] to k[12] are known, k[12] being the flow at the end.
 template <class T, class H, class FlowT>
 void dense_stages_of(FlowT&& flow, const PhaseState<T>& y, const H& h, Stages<T>& k) {
@@ -61,6 +78,13 @@ class Dop853Stepper final : public FlowStepper {
 
   [[nodiscard]] StepOutcome step(const PhaseState<double>& y, double h) override;
   [[nodiscard]] PhaseState<double> interpolate(double theta) override;
+  /// Takes over a step made elsewhere: k[0] to k[11] are its stages.
+  void adopt(const PhaseState<double>& y, double h, const dop853::Stages<double>& k, const PhaseState<double>& end,
+             const PhaseState<double>& end_rate) {
+    k_ = k;
+    dense_ready_ = false;
+    take_over(y, h, k[0], end, end_rate);
+  }
 
  private:
   ErrorScale scale_;

@@ -13,10 +13,8 @@ StepOutcome ExplicitRkStepper::step(const PhaseState<double>& y, double h) {
     end_step(out.y);
   }
   if (rk_.embedded) {
-    PhaseState<double> error =
-        with_stages(rk_.stages, [&](auto stages) { return weighted_rate<stages>(rk_.error, k_); });
-    for (double& component : error.c) component *= h;
-    out.error_norm = error_norm(scale_, y, out.y, error);
+    out.error_norm =
+        with_stages(rk_.stages, [&](auto stages) { return error_of_step<stages>(rk_, scale_, y, out.y, h, k_); });
   }
   return out;
 }

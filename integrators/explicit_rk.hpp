@@ -106,6 +106,15 @@ template <class T, class H, class FlowT>
   return with_stages(rk.stages, [&](auto stages) { return explicit_rk_step<stages>(rk, flow, y, h, k); });
 }
 
+/// The error estimate of a step in tolerances, for an embedded method with N stages.
+template <std::size_t N, class T>
+[[nodiscard]] T error_of_step(const RkCoefficients& rk, const ErrorScaleOf<T>& scale, const PhaseState<T>& y,
+                              const PhaseState<T>& end, const T& h, const RkStages<T>& k) {
+  PhaseState<T> error = weighted_rate<N>(rk.error, k);
+  for (std::size_t i = 0; i < 8; ++i) error[i] = error[i] * h;
+  return error_norm(scale, y, end, error);
+}
+
 /// An explicit Runge-Kutta method behind the stepper interface.
 class ExplicitRkStepper final : public FlowStepper {
  public:
@@ -114,6 +123,13 @@ class ExplicitRkStepper final : public FlowStepper {
 
   [[nodiscard]] StepOutcome step(const PhaseState<double>& y, double h) override;
   [[nodiscard]] PhaseState<double> interpolate(double theta) override;
+  [[nodiscard]] const RkCoefficients& coefficients() const { return rk_; }
+  /// Takes over a step made elsewhere: k are its stages.
+  void adopt(const PhaseState<double>& y, double h, const RkStages<double>& k, const PhaseState<double>& end,
+             const PhaseState<double>& end_rate) {
+    k_ = k;
+    take_over(y, h, k[0], end, end_rate);
+  }
 
  private:
   RkCoefficients rk_;

@@ -1,7 +1,5 @@
 #include "integrators/flow_stepper.hpp"
 
-#include <limits>
-
 #include "metrics/scalar/elementary.hpp"
 
 namespace xpr {
@@ -20,20 +18,6 @@ PhaseState<double> hermite_cubic(const PhaseState<double>& y0, const PhaseState<
     y[i] = theta < 0.5 ? y0[i] + (theta * chord + bend) : y1[i] - (rest * chord - bend);
   }
   return y;
-}
-
-double error_norm(const ErrorScale& scale, const PhaseState<double>& y0, const PhaseState<double>& y1,
-                  const PhaseState<double>& error) {
-  double largest = 0.0;
-  bool all_numbers = true;
-  for (std::size_t i = 0; i < 8; ++i) {
-    const double size0 = abs(y0[i]);
-    const double size1 = abs(y1[i]);
-    const double ratio = abs(error[i]) / (scale.absolute[i] + scale.relative[i] * (size0 > size1 ? size0 : size1));
-    all_numbers = all_numbers && ratio == ratio;
-    largest = ratio > largest ? ratio : largest;
-  }
-  return all_numbers ? largest : std::numeric_limits<double>::quiet_NaN();
 }
 
 void FlowStepper::begin_step(const PhaseState<double>& y, double h) {

@@ -2,10 +2,12 @@
 // the cubic Hermite interpolant through them.
 #pragma once
 
+#include <limits>
 #include <new>
 #include <utility>
 
 #include "integrators/stepper.hpp"
+#include "metrics/scalar/elementary.hpp"
 
 namespace xpr {
 
@@ -15,8 +17,18 @@ namespace xpr {
                                                double theta);
 
 /// max_i |error_i| / (absolute_i + relative_i max(|y0_i|, |y1_i|)); NaN where any component is.
-[[nodiscard]] double error_norm(const ErrorScale& scale, const PhaseState<double>& y0, const PhaseState<double>& y1,
-                                const PhaseState<double>& error);
+template <class T>
+[[nodiscard]] constexpr T error_norm(const ErrorScaleOf<T>& scale, const PhaseState<T>& y0, const PhaseState<T>& y1,
+                                     const PhaseState<T>& error) {
+  T largest = T(0.0);
+  MaskOf<T> all_numbers(true);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const T ratio = abs(error[i]) / (scale.absolute[i] + scale.relative[i] * max(abs(y1[i]), abs(y0[i])));
+    all_numbers = all_numbers & (ratio == ratio);
+    largest = select(ratio > largest, ratio, largest);
+  }
+  return select(all_numbers, largest, T(std::numeric_limits<double>::quiet_NaN()));
+}
 
 /// Makes `where` the flow at y without a copy: a copy would read at once, in wide words, what the flow has just written
 /// number by number, and processors stall on that (15 % of a Dormand-Prince step).
@@ -57,6 +69,17 @@ class FlowStepper : public Stepper {
     end_ = y;
     end_rate_ = rate_there;
     end_rate_known_ = true;
+  }
+
+  /// Takes over a step that was made elsewhere, with the rates at both ends.
+  void take_over(const PhaseState<double>& y, double h, const PhaseState<double>& rate, const PhaseState<double>& end,
+                 const PhaseState<double>& end_rate) {
+    begin_ = y;
+    h_ = h;
+    begin_rate_ = rate;
+    end_ = end;
+    end_rate_ = end_rate;
+    stepped_ = begin_rate_known_ = end_rate_known_ = true;
   }
 
   [[nodiscard]] const PhaseState<double>& begin() const { return begin_; }

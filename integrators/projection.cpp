@@ -51,9 +51,9 @@ bool restore_momentum(const Spacetime& chart, PhaseState<double>& y) {
   return true;
 }
 
-Projector::Projector(Projection projection, const Spacetime& chart, const PhaseState<double>& start,
-                     const std::array<double, 8>& unit)
-    : projection_(projection), unit_(unit) {
+void Projector::begin(const Spacetime& chart, const PhaseState<double>& start, const std::array<double, 8>& unit) {
+  unit_ = unit;
+  constants_.clear();
   if (projection_ != Projection::full) return;
   for (const KillingConstant& k : chart.killing_constants(start)) constants_.push_back({k.name, k.value});
 }

@@ -27,9 +27,9 @@ namespace xpr {
 /// Restores what a trace has asked to be restored.
 class Projector {
  public:
+  explicit Projector(Projection projection) : projection_(projection) {}
   /// Notes the Killing constants of the ray at its start. `unit` measures changes of the eight components.
-  Projector(Projection projection, const Spacetime& chart, const PhaseState<double>& start,
-            const std::array<double, 8>& unit);
+  void begin(const Spacetime& chart, const PhaseState<double>& start, const std::array<double, 8>& unit);
 
   /// Goes on in another chart: constants known by the same name keep their values.
   void change_chart(const Spacetime& chart, const PhaseState<double>& y, const std::array<double, 8>& unit);
@@ -46,7 +46,7 @@ class Projector {
 
   Projection projection_;
   std::vector<Constant> constants_;
-  std::array<double, 8> unit_;
+  std::array<double, 8> unit_{};
 };
 
 }  // namespace xpr

@@ -1,25 +1,8 @@
 #include "integrators/step_control.hpp"
 
 #include "integrators/flow_stepper.hpp"
-#include "metrics/scalar/elementary.hpp"
 
 namespace xpr {
-
-double inverse_root(double x, int p) {
-  const double eighth = sqrt(sqrt(sqrt(x)));
-  return p > 5 ? 1.0 / eighth : 1.0 / (eighth * sqrt(eighth));
-}
-
-double step_factor(double error_norm, int error_power) {
-  constexpr double safety = 0.9;
-  constexpr double least = 0.2;
-  constexpr double most = 5.0;
-  if (!isfinite(error_norm)) return 0.1;
-  // An error this small gives the largest factor under either power: 5 < 0.9 (1e-7)^(-1/8).
-  if (error_norm < 1e-7) return most;
-  const double factor = safety * inverse_root(error_norm, error_power);
-  return factor < least ? least : factor > most ? most : factor;
-}
 
 double initial_step(const Flow& flow, const ErrorScale& scale, const PhaseState<double>& y,
                     const PhaseState<double>& rate, int error_power) {

@@ -4,16 +4,30 @@
 #pragma once
 
 #include "integrators/stepper.hpp"
+#include "metrics/scalar/elementary.hpp"
 
 namespace xpr {
 
 /// x^(-1/p) for p up to 5 as x^(-3/16), above as x^(-1/8): never more than the exact power asks, so that the
 /// controller is a little more sluggish than the textbook's for p = 5 and exact for p = 8.
-[[nodiscard]] double inverse_root(double x, int p);
+template <class T>
+[[nodiscard]] constexpr T inverse_root(const T& x, int p) {
+  const T eighth = sqrt(sqrt(sqrt(x)));
+  return 1.0 / (p > 5 ? eighth : eighth * sqrt(eighth));
+}
 
 /// By what to multiply a step whose error was error_norm tolerances, between 1/5 and 5 (a tenth after a step that gave
 /// no number).
-[[nodiscard]] double step_factor(double error_norm, int error_power);
+template <class T>
+[[nodiscard]] constexpr T step_factor(const T& error_norm, int error_power) {
+  constexpr double safety = 0.9;
+  constexpr double least = 0.2;
+  constexpr double most = 5.0;
+  const T factor = safety * inverse_root(error_norm, error_power);
+  const T bounded = select(factor < least, T(least), select(factor > most, T(most), factor));
+  // An error this small gives the largest factor under either power: 5 < 0.9 (1e-7)^(-1/8).
+  return select(isfinite(error_norm), select(error_norm < 1e-7, T(most), bounded), T(0.1));
+}
 
 /// A first step: the length over which an explicit Euler step and its second-order term stay within a hundredth of
 /// the scale. `rate` is flow(y). Infinite where nothing changes.

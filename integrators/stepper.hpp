@@ -19,10 +19,12 @@ using Flow = std::function<PhaseState<double>(const PhaseState<double>&)>;
 
 /// Which error is tolerated where; the norm is a maximum over components. Component i of the error is divided by
 /// absolute[i] + relative[i] |y_i|; components with absolute[i] = infinity are not graded.
-struct ErrorScale {
-  std::array<double, 8> absolute{};
+template <class T>
+struct ErrorScaleOf {
+  std::array<T, 8> absolute{};
   std::array<double, 8> relative{};
 };
+using ErrorScale = ErrorScaleOf<double>;
 
 /// What users know of a method.
 struct MethodCard {

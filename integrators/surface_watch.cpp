@@ -32,6 +32,13 @@ double SurfaceWatch::value(std::size_t i, const Spacetime& chart, const PhaseSta
   return s.event->g(chart, y, sheet);
 }
 
+void SurfaceWatch::restart(std::optional<double> r_max) {
+  for (Surface& surface : surfaces_) {
+    surface.side = 0;
+    if (r_max && surface.kind == SurfaceKind::radius && surface.status == Status::escaped) surface.level = *r_max;
+  }
+}
+
 void SurfaceWatch::begin(const Spacetime& chart, const PhaseState<double>& y, int sheet) {
   g_begin_.resize(surfaces_.size());
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {

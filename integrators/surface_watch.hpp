@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -61,6 +62,16 @@ class SurfaceWatch {
 
   /// g of surface i.
   [[nodiscard]] double value(std::size_t i, const Spacetime& chart, const PhaseState<double>& y, int sheet) const;
+
+  [[nodiscard]] std::size_t size() const { return surfaces_.size(); }
+
+  /// Forgets the last ray; the next escapes at r_max.
+  void restart(std::optional<double> r_max);
+  /// Where the ray is before a step that another watched so far: g of surface i there, and its side.
+  void take_up(std::size_t i, double g, int side) {
+    g_begin_[i] = g;
+    surfaces_[i].side = side;
+  }
 
   /// Notes on which sides the ray begins.
   void begin(const Spacetime& chart, const PhaseState<double>& y, int sheet);

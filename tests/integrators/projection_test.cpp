@@ -112,7 +112,8 @@ TEST(EnergyProjection, works_inside_the_ergosphere_and_near_the_horizon) {
 TEST(FullProjection, changes_least_and_leaves_what_is_right_alone) {
   const auto hole = make_spacetime("schwarzschild", "isotropic");
   const PhaseState<double> start = test::isotropic_ray(*hole, {0.0, -30.0, 6.0, 1.0}, {0.0, 1.0, 0.1, 0.0});
-  const Projector projector(Projection::full, *hole, start, component_units(*hole, start, 1.0));
+  Projector projector(Projection::full);
+  projector.begin(*hole, start, component_units(*hole, start, 1.0));
   PhaseState<double> y = start;
   ASSERT_TRUE(projector.restore(*hole, y));
   for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(y[i], start[i], 1e-14) << i;
