@@ -63,11 +63,11 @@ std::vector<Surface> surfaces_of(const Spacetime& spacetime, const TraceSettings
 }  // namespace
 
 RayTrace::RayTrace(const Spacetime& spacetime, const TraceSettings& settings, std::span<const Event> events,
-                   const std::function<void(const StepView&)>& observer)
+                   std::function<void(const StepView&)> observer)
     : settings_(settings),
       home_(spacetime),
       events_(events),
-      observer_(observer),
+      observer_(std::move(observer)),
       chart_(&spacetime),
       watch_(surfaces_of(spacetime, settings, events), settings.length_unit),
       projector_(settings.projection),
@@ -116,7 +116,7 @@ void RayTrace::first_step() {
 }
 
 std::optional<Status> RayTrace::begin(const PhaseState<double>& start, int sheet, std::optional<double> r_max) {
-  if (r_max) settings_.r_max = r_max;
+  r_max_ = r_max ? r_max : settings_.r_max;
   chart_ = &home_;
   sheet_ = sheet;
   now_ = {.y = start, .lambda = {}};
@@ -136,7 +136,7 @@ std::optional<Status> RayTrace::begin(const PhaseState<double>& start, int sheet
   }
   begin_chart();
   first_step();
-  watch_.restart(settings_.r_max);
+  watch_.restart(r_max_);
   watch_.begin(*chart_, now_.y, sheet_);
   return beyond_radius();
 }
@@ -246,9 +246,9 @@ double RayTrace::radial_change() {
 
 /// A ray beyond a radius that it never crossed: one that began there. It is done once it goes away from it.
 std::optional<Status> RayTrace::beyond_radius() {
-  if (!settings_.r_max && !settings_.r_min) return std::nullopt;
+  if (!r_max_ && !settings_.r_min) return std::nullopt;
   const double radius = chart_->radius(now_.y.x());
-  const bool outside = settings_.r_max && radius >= *settings_.r_max;
+  const bool outside = r_max_ && radius >= *r_max_;
   const bool inside = settings_.r_min && radius <= *settings_.r_min;
   if (!outside && !inside) return std::nullopt;
   const double change = radial_change();

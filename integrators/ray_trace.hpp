@@ -58,9 +58,9 @@ template <class T>
 
 class RayTrace {
  public:
-  /// Throws std::invalid_argument as trace_ray does. The spacetime, the events and the observer must outlive this.
+  /// Throws std::invalid_argument as trace_ray does. The spacetime, and the events must outlive this.
   RayTrace(const Spacetime& spacetime, const TraceSettings& settings, std::span<const Event> events = {},
-           const std::function<void(const StepView&)>& observer = {});
+           std::function<void(const StepView&)> observer = {});
   RayTrace(const RayTrace&) = delete;
   RayTrace& operator=(const RayTrace&) = delete;
 
@@ -85,7 +85,6 @@ class RayTrace {
   [[nodiscard]] int sheet() const { return sheet_; }
   [[nodiscard]] SurfaceWatch& watch() { return watch_; }
   [[nodiscard]] Stepper& stepper() { return *stepper_; }
-  [[nodiscard]] const TraceSettings& settings() const { return settings_; }
   /// The flow at the start.
   [[nodiscard]] const PhaseState<double>& first_rate() const { return first_rate_; }
 
@@ -103,9 +102,10 @@ class RayTrace {
   void count_evaluations();
 
   TraceSettings settings_;
+  std::optional<double> r_max_;
   const Spacetime& home_;  ///< the chart of the start
   std::span<const Event> events_;
-  const std::function<void(const StepView&)>& observer_;
+  std::function<void(const StepView&)> observer_;
   const Spacetime* chart_;
   int sheet_ = 1;
   RayProgress now_;

@@ -1,0 +1,8 @@
+// Batches of 4 rays at a time: compiled apart, so that the widths build side by side.
+#include "integrators/lane_batch.hpp"
+
+namespace xpr {
+
+template class LaneBatch<4>;
+
+}  // namespace xpr
