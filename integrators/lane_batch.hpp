@@ -69,6 +69,7 @@ class LaneBatch {
   LaneEnd<W> step_;
   CompensatedSum<T> lambda_;
   T h_next_, h_first_, steps_, rejected_, radius_, radial_rate_, residual_, residual_max_;
+  StepMemory<T> last_;
   M last_rejected_;
 };
 
@@ -142,6 +143,8 @@ void LaneBatch<W>::take_up(int i, const PhaseState<double>& rate, double radius,
   set_lane(lambda_.rest, i, at.lambda.rest);
   set_lane(h_next_, i, at.h);
   set_lane(h_first_, i, at.h_first);
+  set_lane(last_.h, i, at.last.h);
+  set_lane(last_.error, i, at.last.error);
   set_lane(last_rejected_, i, at.last_rejected);
   set_lane(steps_, i, static_cast<double>(at.steps));
   set_lane(rejected_, i, static_cast<double>(at.rejected));
@@ -172,6 +175,7 @@ void LaneBatch<W>::put_back(int i) {
   at.y = lane_of<W>(now_.y, i);
   at.lambda = {lane(lambda_.sum, i), lane(lambda_.rest, i)};
   at.h = lane(h_next_, i);
+  at.last = {lane(last_.h, i), lane(last_.error, i)};
   at.last_rejected = lane(last_rejected_, i);
   at.steps = static_cast<std::int64_t>(lane(steps_, i));
   at.rejected = static_cast<std::int64_t>(lane(rejected_, i));
@@ -248,7 +252,12 @@ Mask<W> LaneBatch<W>::control_step(const M& numbers) {
   if (method_.adaptive) {
     good = numbers & (step_.error_norm <= 1.0);
     const M bad = active_ & !good;
-    const T proposed = now_.h * step_factor(step_.error_norm, method_.error_power);
+    const T& error = step_.error_norm;
+    const T proposed = now_.h * select(good, step_factor_foreseen(now_.h, error, last_, method_.error_power),
+                                       step_factor(error, method_.error_power));
+    const StepMemory<T> memory = StepMemory<T>::of(now_.h, error);
+    last_.h = select(good, memory.h, last_.h);
+    last_.error = select(good, memory.error, last_.error);
     h_next_ = select(good & last_rejected_ & (proposed > now_.h), now_.h, proposed);
     rejected_ = select(bad, rejected_ + 1.0, rejected_);
     last_rejected_ = !good;

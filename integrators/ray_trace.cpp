@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "integrators/step_control.hpp"
 #include "metrics/scalar/elementary.hpp"
 
 namespace xpr {
@@ -88,6 +87,7 @@ void RayTrace::count_evaluations() {
 
 void RayTrace::begin_chart() {
   count_evaluations();
+  now_.last = {};
   if (keeps_stepper_ && stepper_chart_ == chart_) return;
   StepperSettings settings;
   settings.error_scale = error_scale(*chart_, now_.y, settings_);
@@ -166,7 +166,8 @@ std::optional<Status> RayTrace::try_step() {
     return accept(outcome, h);
   }
   if (numbers && outcome.converged && outcome.error_norm <= 1.0) {
-    const double factor = step_factor(outcome.error_norm, method_.error_power);
+    const double factor = step_factor_foreseen(h, outcome.error_norm, now_.last, method_.error_power);
+    now_.last = StepMemory<double>::of(h, outcome.error_norm);
     const double proposed = outcome.next_step > 0.0 ? outcome.next_step : h * factor;
     // Right after a rejection the step must not grow: it would be rejected again.
     now_.h = now_.last_rejected && proposed > h ? h : proposed;

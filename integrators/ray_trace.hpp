@@ -8,6 +8,7 @@
 #include <span>
 
 #include "integrators/projection.hpp"
+#include "integrators/step_control.hpp"
 #include "integrators/surface_watch.hpp"
 #include "integrators/tracer.hpp"
 
@@ -37,7 +38,8 @@ struct CompensatedSum {
 struct RayProgress {
   PhaseState<double> y;
   CompensatedSum<double> lambda;
-  double h = 0.0;        ///< the next step to try
+  double h = 0.0;  ///< the next step to try
+  StepMemory<double> last = {};
   double h_first = 0.0;  ///< the first that was tried in this chart
   bool last_rejected = false;
   bool inside_interface = false;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <limits>
+#include <new>
 #include <type_traits>
 
 #include "metrics/derived.hpp"
@@ -78,7 +79,8 @@ class LaneChartOf final : public LaneChart<W> {
       const PhaseState<T> without = module_.flow_of_side(y, false);
       for (std::size_t k = 0; k < 8; ++k) rate[k] = select(inside, within[k], without[k]);
     } else {
-      rate = xpr::flow(module_, y);
+      // In place: a copy would be as long as the flow's own stores.
+      ::new (static_cast<void*>(&rate)) PhaseState<T>(xpr::flow(module_, y));
     }
   }
 
