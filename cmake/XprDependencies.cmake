@@ -10,6 +10,8 @@ find_package(CLI11 REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(TBB REQUIRED)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+# By pkg-config: its CMake package warns about Imath at length.
+pkg_check_modules(OPENEXR REQUIRED IMPORTED_TARGET OpenEXR)
 
 # Debian's GeographicLib 2.1.2 ships no CMake config package: config, then pkg-config, then a plain search.
 find_package(GeographicLib CONFIG QUIET)

@@ -44,7 +44,7 @@ RayAngles::RayAngles(const Spacetime& table, const Spacetime& transport, const P
 }
 
 std::function<void(const StepView&)> RayAngles::observer() {
-  if (!latitudes_ || !azimuth_) return {};
+  if (!follows_steps()) return {};
   // No step turns a ray once around, and a surface of revolution keeps the sense of rotation: that of p_lon.
   return [this](const StepView& step) {
     const PhaseState<double> y = change_chart(step.chart, table_, step.end, step.sheet).state;

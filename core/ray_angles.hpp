@@ -27,6 +27,8 @@ class RayAngles {
   RayAngles(const Spacetime& table, const Spacetime& transport, const PhaseState<double>& table_start,
             const ChartState& start);
 
+  /// Whether the ray has to be followed step by step, by observer().
+  [[nodiscard]] bool follows_steps() const { return latitudes_ && azimuth_; }
   /// To be given to the tracer; empty where nothing needs to be followed. Refers to this object.
   [[nodiscard]] std::function<void(const StepView&)> observer();
 

@@ -9,12 +9,15 @@
 
 #include "core/io/errors.hpp"
 #include "core/io/ray_table.hpp"
+#include "integrators/batch_tracer.hpp"
 
 namespace xpr {
 namespace {
 
-// Rays in memory at a time: enough to keep every core busy, half a megabyte of starts.
-constexpr std::size_t block_rays = 4096;
+// Rays in memory at a time: enough to keep every core busy, two megabytes of starts.
+constexpr std::size_t block_rays = 16384;
+// Rays a task: enough to keep lanes full to the end, few enough that slow rays do not hold a core up.
+constexpr std::size_t grain = 256;
 
 void check_interrupted(const TraceTableSettings& settings) {
   if (settings.interrupted && settings.interrupted()) throw Interrupted("interrupted");
@@ -72,17 +75,20 @@ TraceTableResult trace_table(const Transport& transport, TableReader& reader, Ta
                              const TraceTableSettings& settings) {
   const TableSchema schema = traced_ray_schema(transport.chart().card());
   tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
+  const int lanes = settings.lanes > 0 ? settings.lanes : best_lanes();
   CanonicalHash hash;
   TraceTableResult result;
   for (TableBlock block = reader.read(block_rays); block.rows > 0; block = reader.read(block_rays)) {
-    const std::vector<Ray> starts = rays_of(block);
+    std::vector<Ray> starts = rays_of(block);
+    if (settings.renormalise) {
+      for (Ray& ray : starts) ray = transport.renormalised(ray);
+    }
     std::vector<TracedRay> ends(starts.size());
     arena.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, starts.size(), 8), [&](const auto& range) {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, starts.size(), grain), [&](const auto& range) {
         check_interrupted(settings);
-        for (std::size_t k = range.begin(); k < range.end(); ++k) {
-          ends[k] = transport.trace(settings.renormalise ? transport.renormalised(starts[k]) : starts[k]);
-        }
+        transport.trace(std::span(starts).subspan(range.begin(), range.size()), lanes,
+                        std::span(ends).subspan(range.begin(), range.size()));
       });
     });
     check_interrupted(settings);

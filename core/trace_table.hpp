@@ -23,6 +23,7 @@ inline constexpr double largest_off_cone = 1e-9;
 struct TraceTableSettings {
   bool renormalise = false;  ///< put rays onto the light cone instead of refusing those that are off it
   int threads = 0;           ///< 0: one for each core
+  int lanes = 0;             ///< rays side by side, 1, 2, 4 or 8; 0: what this machine does best
   /// Called now and then from the calling thread, with rays done and in all.
   std::function<void(std::int64_t done, std::int64_t rays)> progress = {};
   /// Asked now and then from any thread; true ends the work with Interrupted.

@@ -10,10 +10,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/ray_angles.hpp"
+#include "integrators/batch_tracer.hpp"
 #include "integrators/stepper.hpp"
 #include "metrics/catalogue.hpp"
-#include "metrics/chart_map.hpp"
 #include "metrics/null_cone.hpp"
 
 namespace xpr {
@@ -117,24 +116,35 @@ bool Transport::admits(const Ray& ray) const {
   return admissible(*forward_, inside.state);
 }
 
-TracedRay Transport::trace(const Ray& ray) const {
-  TracedRay out{.id = ray.id, .status = Status::outside_domain, .sheet = ray.sheet, .end = ray.start};
-  out.null_residual = out.null_residual_max = std::numeric_limits<double>::quiet_NaN();
-  if (!admits(ray)) return out;
+namespace {
 
-  const Spacetime* transport = forward_.get();
-  ChartState start = change_chart(*chart_, *transport, ray.start, ray.sheet);
-  if (time_rate(*transport, start.state) < 0.0) {
-    transport = backward_.get();
-    start = change_chart(*chart_, *transport, ray.start, ray.sheet);
-    if (!admissible(*transport, start.state)) return out;
+/// The row of a ray that never set out.
+TracedRay refused(const Ray& ray) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  return {.id = ray.id,
+          .status = Status::outside_domain,
+          .sheet = ray.sheet,
+          .end = ray.start,
+          .null_residual = nan,
+          .null_residual_max = nan};
+}
+
+}  // namespace
+
+std::optional<Transport::Departure> Transport::departure(const Ray& ray) const {
+  if (!admits(ray)) return std::nullopt;
+  Departure out{forward_.get(), change_chart(*chart_, *forward_, ray.start, ray.sheet), 0.0};
+  if (time_rate(*out.chart, out.start.state) < 0.0) {
+    out.chart = backward_.get();
+    out.start = change_chart(*chart_, *backward_, ray.start, ray.sheet);
+    if (!admissible(*out.chart, out.start.state)) return std::nullopt;
   }
+  const double far = std::max(1000.0 * settings_.trace.length_unit, 2.0 * out.chart->radius(out.start.state.x()));
+  out.r_max = settings_.trace.r_max.value_or(far);
+  return out;
+}
 
-  TraceSettings trace = settings_.trace;
-  if (!trace.r_max) trace.r_max = std::max(1000.0 * trace.length_unit, 2.0 * transport->radius(start.state.x()));
-  RayAngles angles(*chart_, *transport, ray.start, start);
-  const RayEnd end = trace_ray(*transport, start.state, start.sheet, trace, {}, angles.observer());
-
+TracedRay Transport::arrival(const Ray& ray, const RayEnd& end, const RayAngles& angles) const {
   ChartState back = change_chart(*end.chart, *chart_, end.y, end.sheet);
   // A chart that covers both sides of a wormhole tells them apart by the sign of l.
   if (const auto l = chart_->proper_distance(back.state.x(), back.sheet)) back.sheet = *l < 0.0 ? -1 : 1;
@@ -148,6 +158,53 @@ TracedRay Transport::trace(const Ray& ray) const {
           .evaluations = end.evaluations,
           .null_residual = end.null_residual,
           .null_residual_max = end.null_residual_max};
+}
+
+TracedRay Transport::trace(const Ray& ray) const {
+  const std::optional<Departure> from = departure(ray);
+  if (!from) return refused(ray);
+  TraceSettings trace = settings_.trace;
+  trace.r_max = from->r_max;
+  RayAngles angles(*chart_, *from->chart, ray.start, from->start);
+  const RayEnd end = trace_ray(*from->chart, from->start.state, from->start.sheet, trace, {}, angles.observer());
+  return arrival(ray, end, angles);
+}
+
+void Transport::trace(std::span<const Ray> rays, int lanes, std::span<TracedRay> out) const {
+  std::vector<Departure> departures(rays.size());
+  std::vector<std::size_t> forward;
+  std::vector<std::size_t> backward;
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    const std::optional<Departure> from = departure(rays[k]);
+    if (!from) {
+      out[k] = refused(rays[k]);
+      continue;
+    }
+    departures[k] = *from;
+    // Rays that have to be followed step by step go alone.
+    if (RayAngles(*chart_, *from->chart, rays[k].start, from->start).follows_steps()) {
+      out[k] = trace(rays[k]);
+    } else {
+      (from->chart == forward_.get() ? forward : backward).push_back(k);
+    }
+  }
+  trace_in_lanes(rays, *forward_, departures, forward, lanes, out);
+  trace_in_lanes(rays, *backward_, departures, backward, lanes, out);
+}
+
+void Transport::trace_in_lanes(std::span<const Ray> rays, const Spacetime& chart, std::span<const Departure> departures,
+                               std::span<const std::size_t> places, int lanes, std::span<TracedRay> out) const {
+  std::vector<BatchRay> batch;
+  batch.reserve(places.size());
+  for (const std::size_t k : places) {
+    batch.push_back({departures[k].start.state, departures[k].start.sheet, departures[k].r_max});
+  }
+  std::vector<RayEnd> ends(batch.size());
+  trace_rays(chart, batch, settings_.trace, lanes, ends);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::size_t k = places[i];
+    out[k] = arrival(rays[k], ends[i], RayAngles(*chart_, chart, rays[k].start, departures[k].start));
+  }
 }
 
 }  // namespace xpr

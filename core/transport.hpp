@@ -6,10 +6,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/ray_angles.hpp"
 #include "integrators/tracer.hpp"
+#include "metrics/chart_map.hpp"
 #include "metrics/spacetime.hpp"
 
 namespace xpr {
@@ -63,8 +67,21 @@ class Transport {
   [[nodiscard]] Ray renormalised(const Ray& ray) const;
   /// Traces one ray to its stop. A start that physics does not admit comes back as `outside_domain`.
   [[nodiscard]] TracedRay trace(const Ray& ray) const;
+  /// Traces ray k into out[k], `lanes` at a time (see batch_tracer.hpp): the bits of trace(), whatever the width.
+  void trace(std::span<const Ray> rays, int lanes, std::span<TracedRay> out) const;
 
  private:
+  /// A start that is admitted, in the chart that will transport it.
+  struct Departure {
+    const Spacetime* chart = nullptr;
+    ChartState start;
+    double r_max = 0.0;
+  };
+  [[nodiscard]] std::optional<Departure> departure(const Ray& ray) const;
+  [[nodiscard]] TracedRay arrival(const Ray& ray, const RayEnd& end, const RayAngles& angles) const;
+  void trace_in_lanes(std::span<const Ray> rays, const Spacetime& chart, std::span<const Departure> departures,
+                      std::span<const std::size_t> places, int lanes, std::span<TracedRay> out) const;
+
   TransportSettings settings_;
   std::unique_ptr<Spacetime> chart_;
   std::unique_ptr<Spacetime> forward_;   ///< transport chart for p^t > 0

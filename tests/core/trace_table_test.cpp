@@ -54,10 +54,10 @@ TraceTableResult trace(const std::filesystem::path& in, const std::filesystem::p
   return result;
 }
 
-TEST(TraceTable, gives_a_row_for_each_ray_in_order_whatever_the_threads_and_the_format) {
+TEST(TraceTable, gives_a_row_for_each_ray_in_order_whatever_the_threads_the_lanes_and_the_format) {
   const TemporaryDirectory directory;
   const Transport transport = kerr();
-  const std::vector<Ray> rays = sample_rays(transport, 5000);  // more than a block
+  const std::vector<Ray> rays = sample_rays(transport, 17000);  // more than a block
   write_rays(directory / "in.csv", transport, rays);
   write_rays(directory / "in.h5", transport, rays);
   const TraceTableResult one = trace(directory / "in.csv", directory / "one.csv", transport, {.threads = 1});
@@ -66,9 +66,13 @@ TEST(TraceTable, gives_a_row_for_each_ray_in_order_whatever_the_threads_and_the_
   EXPECT_EQ(slurp(directory / "one.csv"), slurp(directory / "two.csv"));
   EXPECT_EQ(one.rays_hash, two.rays_hash);
   EXPECT_EQ(one.rays_hash, h5.rays_hash);
-  EXPECT_EQ(one.rays, 5000);
+  EXPECT_EQ(one.rays, 17000);
+  for (const int lanes : {1, 2, 4, 8}) {
+    EXPECT_EQ(trace(directory / "in.h5", directory / "lanes.h5", transport, {.lanes = lanes}).rays_hash, one.rays_hash)
+        << lanes;
+  }
 
-  const TableBlock block = open_table(directory / "two.h5", traced_ray_schema(transport.chart().card()))->read(6000);
+  const TableBlock block = open_table(directory / "two.h5", traced_ray_schema(transport.chart().card()))->read(20000);
   const std::vector<TracedRay> ends = traced_rays_of(block);
   ASSERT_EQ(ends.size(), rays.size());
   std::int64_t escaped = 0;
@@ -78,7 +82,7 @@ TEST(TraceTable, gives_a_row_for_each_ray_in_order_whatever_the_threads_and_the_
     if (ends[k].status == Status::escaped) ++escaped;
   }
   EXPECT_EQ(one.with_status[static_cast<std::size_t>(Status::escaped)], escaped);
-  EXPECT_EQ(one.with_status[static_cast<std::size_t>(Status::outside_domain)], 100);
+  EXPECT_EQ(one.with_status[static_cast<std::size_t>(Status::outside_domain)], 340);
   EXPECT_GT(escaped, 1000);
   EXPECT_GT(one.with_status[static_cast<std::size_t>(Status::captured)], 100);
 }

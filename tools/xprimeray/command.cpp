@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 
 #include "core/io/csv.hpp"
 #include "core/io/errors.hpp"
+#include "integrators/batch_tracer.hpp"
 #include "metrics/catalogue.hpp"
 
 namespace xpr::cli {
@@ -30,6 +32,12 @@ std::string duration_text(double seconds) {
 void add_output_flags(CLI::App& command, OutputFlags& flags) {
   command.add_flag("--quiet", flags.quiet, "Print nothing but errors");
   command.add_flag("--json", flags.json, "Print one JSON object a line on standard output");
+}
+
+void check_lanes(std::string_view command, int lanes) {
+  if (lanes == 0 || std::find(lane_widths.begin(), lane_widths.end(), lanes) != lane_widths.end()) return;
+  throw InputError(
+      fmt::format("{}: --lanes is {}, needs 0 (what this machine does best), 1, 2, 4 or 8", command, lanes));
 }
 
 void add_example(CLI::App& command, const std::string& lines) { command.footer("Example:\n" + lines); }

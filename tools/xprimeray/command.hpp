@@ -36,6 +36,9 @@ struct OutputFlags {
 };
 void add_output_flags(CLI::App& command, OutputFlags& flags);
 
+/// Throws InputError unless `lanes` is 0, 1, 2, 4 or 8.
+void check_lanes(std::string_view command, int lanes);
+
 /// "--help" of every subcommand ends in an example.
 void add_example(CLI::App& command, const std::string& lines);
 

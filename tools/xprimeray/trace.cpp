@@ -30,6 +30,7 @@ struct TraceOptions {
   TransportSettings transport{.metric = ""};
   bool renormalise = false;
   int threads = 0;
+  int lanes = 0;
 };
 
 constexpr std::array<std::string_view, 4> projections{"none", "energy", "momentum", "full"};  // as in the enum
@@ -88,7 +89,11 @@ Json meta(const TraceOptions& options, const Transport& transport, const TraceTa
           {"steps", result.steps},
           {"evaluations", result.evaluations},
           {"rays_hash", result.rays_hash},
-          {"volatile", {{"seconds", seconds}, {"threads", options.threads}, {"provenance", to_json(origin)}}}};
+          {"volatile",
+           {{"seconds", seconds},
+            {"threads", options.threads},
+            {"lanes", options.lanes},
+            {"provenance", to_json(origin)}}}};
 }
 
 std::vector<std::pair<std::string, std::string>> table_attributes(const Transport& transport) {
@@ -147,6 +152,7 @@ int run_trace(TraceOptions& options) {
   if (options.rays.empty()) throw InputError("trace: --rays is missing, a ray table that ends in .csv or .h5");
   if (options.out.empty()) throw InputError("trace: --out is missing, a file that ends in .csv or .h5");
   if (options.threads < 0) throw InputError("trace: --threads is negative, needs 0 (all cores) or more");
+  check_lanes("trace", options.lanes);
   options.transport.trace.projection = projection_named(options.project);
   for (const std::string& text : options.set) add_parameter(options.transport.parameters, text);
   const TableFormat format = table_format(options.out);
@@ -155,7 +161,7 @@ int run_trace(TraceOptions& options) {
 
   catch_interrupts();
   const double begin = seconds_now();
-  TraceTableSettings settings{.renormalise = options.renormalise, .threads = options.threads};
+  TraceTableSettings settings{.renormalise = options.renormalise, .threads = options.threads, .lanes = options.lanes};
   settings.interrupted = interrupted;
   AtomicFile out(options.out);
   const std::int64_t rays = check_rays(options.rays, transport, settings);
@@ -213,6 +219,8 @@ void add_options(CLI::App& app, TraceOptions& options) {
   app.add_option("--max-steps", trace.max_steps, "Accepted steps at which to stop: max_steps")->capture_default_str();
   app.add_flag("--renormalise", options.renormalise, "Solve for p0 instead of refusing rays off the light cone");
   app.add_option("--threads", options.threads, "0: one for each core; the result does not depend on it")
+      ->capture_default_str();
+  app.add_option("--lanes", options.lanes, "Rays side by side, 1, 2, 4 or 8; 0: best here; no result depends on it")
       ->capture_default_str();
   app.add_option("--config", options.config, "TOML file with any of these options; a flag beats the file");
   add_output_flags(app, options.output);
