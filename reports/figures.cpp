@@ -101,26 +101,26 @@ fs::path program_directory() {
 
 }  // namespace
 
-FigureTools found_figure_tools() {
+FigureTools found_figure_tools(const std::string& script_name) {
   FigureTools tools;
   tools.python = XPR_PYTHON;
-  tools.script = XPR_FIGURE_SCRIPT;
+  tools.script = fs::path(XPR_FIGURE_SCRIPTS) / script_name;
   std::error_code error;
   if (!fs::exists(tools.script, error)) {
-    tools.script = program_directory().parent_path() / "share/xprimeray/figures/report_figures.py";
+    tools.script = program_directory().parent_path() / "share/xprimeray/figures" / script_name;
   }
   if (const char* python = std::getenv("XPRIMERAY_PYTHON")) tools.python = python;
   if (const char* script = std::getenv("XPRIMERAY_FIGURE_SCRIPT")) tools.script = script;
   return tools;
 }
 
-FigureSet draw_figures(const FigureTools& tools, const fs::path& report_directory) {
+FigureSet draw_figures(const FigureTools& tools, const fs::path& directory, const std::string& data) {
   FigureSet figures;
   std::string reason = missing_tool(tools);
-  const fs::path folder = report_directory / "figures";
-  const fs::path log = report_directory / "figures.log";
+  const fs::path folder = directory / "figures";
+  const fs::path log = directory / "figures.log";
   if (reason.empty()) {
-    reason = run_script(tools, report_directory / "report.h5", folder, log);
+    reason = run_script(tools, directory / data, folder, log);
     if (reason.empty()) {
       try {
         figures = read_index(folder);
@@ -136,7 +136,7 @@ FigureSet draw_figures(const FigureTools& tools, const fs::path& report_director
   if (!reason.empty()) {
     fs::remove_all(folder, ignored);
     figures = {};
-    figures.problems = {fmt::format("{}{}. All numbers are in report.h5.", no_figures, reason)};
+    figures.problems = {fmt::format("{}{}. All numbers are in {}.", no_figures, reason, data)};
   }
   return figures;
 }

@@ -83,7 +83,9 @@ bool agrees(Status status, Fate fate) {
 class Mapping {
  public:
   explicit Mapping(const ErrorMapSettings& settings)
-      : settings_(settings), transport_(transport_of(settings)), exact_(settings.screen, *transport_.settings().trace.r_min) {
+      : settings_(settings),
+        transport_(transport_of(settings)),
+        exact_(settings.screen, *transport_.settings().trace.r_min) {
     map_.columns = settings.screen.pixels[0];
     map_.rows = settings.screen.pixels[1];
     const auto pixels = static_cast<std::size_t>(map_.columns) * static_cast<std::size_t>(map_.rows);
@@ -91,8 +93,8 @@ class Mapping {
                          &map_.truth_error, &map_.condition}) {
       column->assign(pixels, nan);
     }
-    for (auto* column : {&map_.pixel_class, &map_.status, &map_.status_agrees, &map_.steps, &map_.rejected,
-                         &map_.evaluations}) {
+    for (auto* column :
+         {&map_.pixel_class, &map_.status, &map_.status_agrees, &map_.steps, &map_.rejected, &map_.evaluations}) {
       column->assign(pixels, 0);
     }
   }
@@ -140,8 +142,7 @@ class Mapping {
     std::vector<bool> lit(rays.size());
     for (std::size_t k = begin; k < end; ++k) {
       const auto columns = static_cast<std::size_t>(map_.columns);
-      const auto [alpha, beta] =
-          settings_.screen.point(static_cast<int>(k % columns), static_cast<int>(k / columns));
+      const auto [alpha, beta] = settings_.screen.point(static_cast<int>(k % columns), static_cast<int>(k / columns));
       map_.alpha[k] = alpha;
       map_.beta[k] = beta;
       const std::optional<PhaseState<double>> start = settings_.screen.ray(alpha, beta);

@@ -36,15 +36,15 @@ inline constexpr double critical_condition = 30.0;
 struct ErrorMap {
   int columns = 0;
   int rows = 0;
-  std::vector<double> alpha, beta;            ///< in the unit of M
-  std::vector<std::int64_t> pixel_class;      ///< PixelClass, by the closed form
-  std::vector<std::int64_t> status;           ///< Status of the traced ray
-  std::vector<std::int64_t> status_agrees;    ///< 1: traced and exact rays escape, or are captured, alike
-  std::vector<double> direction_error;        ///< angle between the ends' directions, radian
-  std::vector<double> swept_error;            ///< of the azimuth swept, radian; modulo 2 pi where lambda = 0
-  std::vector<double> time_error;             ///< of the elapsed t, in the unit of M
-  std::vector<double> truth_error;            ///< what the closed form says of its own direction, radian
-  std::vector<double> condition;              ///< rad per M; NaN where a neighbour's fate is another
+  std::vector<double> alpha, beta;          ///< in the unit of M
+  std::vector<std::int64_t> pixel_class;    ///< PixelClass, by the closed form
+  std::vector<std::int64_t> status;         ///< Status of the traced ray
+  std::vector<std::int64_t> status_agrees;  ///< 1: traced and exact rays escape, or are captured, alike
+  std::vector<double> direction_error;      ///< angle between the ends' directions, radian
+  std::vector<double> swept_error;          ///< of the azimuth swept, radian; modulo 2 pi where lambda = 0
+  std::vector<double> time_error;           ///< of the elapsed t, in the unit of M
+  std::vector<double> truth_error;          ///< what the closed form says of its own direction, radian
+  std::vector<double> condition;            ///< rad per M; NaN where a neighbour's fate is another
   std::vector<std::int64_t> steps, rejected, evaluations;
   std::string rays_hash;  ///< over what transport put out
 };
@@ -57,7 +57,7 @@ struct ErrorSummary {
   std::string name;
   std::int64_t pixels = 0;
   std::int64_t wrong_status = 0;
-  double median = 0.0, p99 = 0.0, most = 0.0;                       ///< direction; NaN without pixels
+  double median = 0.0, p99 = 0.0, most = 0.0;  ///< direction; NaN without pixels
   double swept_median = 0.0, swept_p99 = 0.0, swept_most = 0.0;
   double scaled_median = 0.0, scaled_p99 = 0.0, scaled_most = 0.0;  ///< direction over max(1, condition)
   double steps = 0.0, evaluations = 0.0;                            ///< means

@@ -23,8 +23,8 @@ void write_exr(const std::filesystem::path& path, int columns, int rows, std::sp
   planes.reserve(channels.size());
   for (const ImageChannel& channel : channels) {
     if (channel.values.size() != width * height) {
-      throw std::invalid_argument(fmt::format("channel {} has {} values, needs {} x {}", channel.name,
-                                              channel.values.size(), columns, rows));
+      throw std::invalid_argument(
+          fmt::format("channel {} has {} values, needs {} x {}", channel.name, channel.values.size(), columns, rows));
     }
     // The file's first row is the upper one.
     std::vector<float>& plane = planes.emplace_back(width * height);
@@ -34,8 +34,8 @@ void write_exr(const std::filesystem::path& path, int columns, int rows, std::sp
       }
     }
     header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
-    frame.insert(channel.name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(plane.data()), sizeof(float),
-                                          sizeof(float) * width));
+    frame.insert(channel.name,
+                 Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(plane.data()), sizeof(float), sizeof(float) * width));
   }
   try {
     // Threads would change nothing but the time.

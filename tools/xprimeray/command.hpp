@@ -28,6 +28,8 @@ Command register_explain(CLI::App& program);
 Command register_doctor(CLI::App& program);
 Command register_conform(CLI::App& program);
 Command register_validate(CLI::App& program);
+Command register_errormap(CLI::App& program);
+Command register_repro(CLI::App& program);
 
 /// --quiet and --json, as every subcommand that works for long has them.
 struct OutputFlags {
