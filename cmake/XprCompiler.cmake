@@ -19,6 +19,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(xpr_determinism INTERFACE -fno-tree-slp-vectorize)
 endif()
 target_compile_definitions(xpr_determinism INTERFACE EIGEN_DONT_VECTORIZE)
+# g++ 12's vectoriser fuses pairs such as (r x + a y, r y - a x) into vfmsubadd in spite of -ffp-contract=off. Packs are
+# vectors without its help. tests/tools/check_no_fma.py looks for such instructions.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(xpr_determinism INTERFACE -fno-tree-vectorize)
+endif()
 
 # The ISA level moves speed, never bits. "native" picks the highest x86-64 level that this machine runs.
 set(XPRIMERAY_ISA "native" CACHE STRING "x86-64-v2, x86-64-v3, x86-64-v4, native, or none")

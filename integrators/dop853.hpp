@@ -13,25 +13,32 @@ namespace dop853 {
 template <class T>
 using Stages = std::array<PhaseState<T>, dense_stages>;
 
-/// sum_j row_j k_j over the non-zero entries of row R of a table that is known at compile time.
+/// Component i of sum_j row_j k_j over the non-zero entries of row R of a table that is known at compile time. The
+/// first entry of every row is one of them.
+template <const auto& table, std::size_t R, class T>
+[[nodiscard, gnu::always_inline]] constexpr T weighted_component(const Stages<T>& k, std::size_t i) {
+  T sum = table[R][0] * k[0][i];
+  const auto add = [&]<std::size_t J>() __attribute__((always_inline)) {
+    if constexpr (table[R][J] != 0.0) sum = sum + table[R][J] * k[J][i];
+  };
+  [&]<std::size_t... J>(std::index_sequence<J...>) { (add.template operator()<J + 1>(), ...); }
+  (std::make_index_sequence<dense_stages - 1>{});
+  return sum;
+}
+
 template <const auto& table, std::size_t R, class T>
 [[nodiscard]] constexpr PhaseState<T> weighted_rate(const Stages<T>& k) {
-  PhaseState<T> sum{};
-  const auto add = [&]<std::size_t J>() {
-    if constexpr (table[R][J] != 0.0) {
-      for (std::size_t i = 0; i < 8; ++i) sum[i] = sum[i] + table[R][J] * k[J][i];
-    }
-  };
-  [&]<std::size_t... J>(std::index_sequence<J...>) { (add.template operator()<J>(), ...); }
-  (std::make_index_sequence<dense_stages>{});
+  PhaseState<T> sum;
+  for_components([&](auto i) { sum[i] = weighted_component<table, R>(k, i); });
   return sum;
 }
 
 /// y + h times the rate that row R of `a` weighs.
 template <std::size_t R, class T, class H>
-[[nodiscard]] constexpr PhaseState<T> stage(const PhaseState<T>& y, const H& h, const Stages<T>& k) {
-  PhaseState<T> out = weighted_rate<a, R>(k);
-  for (std::size_t i = 0; i < 8; ++i) out[i] = y[i] + h * out[i];
+[[nodiscard, gnu::always_inline]] constexpr PhaseState<T> stage(const PhaseState<T>& y, const H& h,
+                                                                const Stages<T>& k) {
+  PhaseState<T> out;
+  for_components([&](auto i) { out[i] = y[i] + h * weighted_component<a, R>(k, i); });
   return out;
 }
 

@@ -52,7 +52,7 @@ template <std::size_t N, class T>
                                                                         const RkStages<T>& k) {
   PhaseState<T> sum;
   [&]<std::size_t... J>(std::index_sequence<J...>) {
-    for (std::size_t i = 0; i < 8; ++i) sum[i] = ((weight[0] * k[0][i]) + ... + (weight[J + 1] * k[J + 1][i]));
+    for_components([&](auto i) { sum[i] = ((weight[0] * k[0][i]) + ... + (weight[J + 1] * k[J + 1][i])); });
   }
   (std::make_index_sequence<N - 1>{});
   return sum;
@@ -63,7 +63,7 @@ template <class T, class H>
 [[nodiscard, gnu::always_inline]] constexpr PhaseState<T> advanced(const PhaseState<T>& y, const H& h,
                                                                    const PhaseState<T>& rate) {
   PhaseState<T> out;
-  for (std::size_t i = 0; i < 8; ++i) out[i] = y[i] + h * rate[i];
+  for_components([&](auto i) { out[i] = y[i] + h * rate[i]; });
   return out;
 }
 

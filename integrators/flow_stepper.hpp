@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <new>
+#include <type_traits>
 #include <utility>
 
 #include "integrators/stepper.hpp"
@@ -34,7 +35,19 @@ template <class T>
 /// number by number, and processors stall on that (15 % of a Dormand-Prince step).
 template <class FlowT, class T>
 void put_rate(FlowT&& flow, const PhaseState<T>& y, PhaseState<T>& where) {
-  ::new (static_cast<void*>(&where)) PhaseState<T>(flow(y));
+  if constexpr (std::is_invocable_v<FlowT, const PhaseState<T>&, PhaseState<T>&>) {
+    flow(y, where);
+  } else {
+    ::new (static_cast<void*>(&where)) PhaseState<T>(flow(y));
+  }
+}
+
+/// Calls f with 0 to 7 as constants: for the components of a state, laid out flat. A loop over them keeps packs in
+/// memory; -O2 does not unroll it.
+template <class F>
+[[gnu::always_inline]] constexpr void for_components(const F& f) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) { (f(std::integral_constant<std::size_t, I>{}), ...); }
+  (std::make_index_sequence<8>{});
 }
 
 /// Base of the steppers. A derived step() calls begin_step, then end_step.

@@ -3,6 +3,7 @@
 
 namespace xpr {
 
+template std::unique_ptr<LaneKernel<1>> make_lane_kernel<1>(const Stepper&);
 template class LaneBatch<1>;
 
 }  // namespace xpr

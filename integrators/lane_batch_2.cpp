@@ -3,6 +3,7 @@
 
 namespace xpr {
 
+template std::unique_ptr<LaneKernel<2>> make_lane_kernel<2>(const Stepper&);
 template class LaneBatch<2>;
 
 }  // namespace xpr

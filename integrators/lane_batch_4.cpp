@@ -3,6 +3,7 @@
 
 namespace xpr {
 
+template std::unique_ptr<LaneKernel<4>> make_lane_kernel<4>(const Stepper&);
 template class LaneBatch<4>;
 
 }  // namespace xpr

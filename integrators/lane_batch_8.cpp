@@ -3,6 +3,7 @@
 
 namespace xpr {
 
+template std::unique_ptr<LaneKernel<8>> make_lane_kernel<8>(const Stepper&);
 template class LaneBatch<8>;
 
 }  // namespace xpr

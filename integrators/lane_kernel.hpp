@@ -49,11 +49,7 @@ class TableauKernel final : public LaneKernel<W> {
   explicit TableauKernel(const RkCoefficients& rk) : rk_(rk) {}
 
   void step(const LaneStart<W>& from, LaneEnd<W>& to) override {
-    const auto flow = [&](const PhaseState<T>& y) {
-      PhaseState<T> rate;
-      from.chart.flow(y, from.inside, rate);
-      return rate;
-    };
+    const auto flow = [&](const PhaseState<T>& y, PhaseState<T>& rate) { from.chart.flow(y, from.inside, rate); };
     k_[0] = from.rate;
     to.y = explicit_rk_step<Stages>(rk_, flow, from.y, from.h, k_);
     if (rk_.first_same_as_last) {
@@ -84,11 +80,7 @@ class Dop853Kernel final : public LaneKernel<W> {
   using T = Pack<W>;
 
   void step(const LaneStart<W>& from, LaneEnd<W>& to) override {
-    const auto flow = [&](const PhaseState<T>& y) {
-      PhaseState<T> rate;
-      from.chart.flow(y, from.inside, rate);
-      return rate;
-    };
+    const auto flow = [&](const PhaseState<T>& y, PhaseState<T>& rate) { from.chart.flow(y, from.inside, rate); };
     k_[0] = from.rate;
     to.y = dop853::step(flow, from.y, from.h, k_);
     from.chart.flow(to.y, from.inside, to.rate);
@@ -108,9 +100,13 @@ class Dop853Kernel final : public LaneKernel<W> {
   dop853::Stages<T> k_{};
 };
 
-/// The kernel of the method whose scalar stepper this is; null for methods that have none.
+/// The kernel of the method whose scalar stepper this is; null for methods that have none. Compiled a file for each
+/// width.
 template <int W>
-[[nodiscard]] std::unique_ptr<LaneKernel<W>> make_lane_kernel(const Stepper& stepper) {
+[[nodiscard]] std::unique_ptr<LaneKernel<W>> make_lane_kernel(const Stepper& stepper);
+
+template <int W>
+std::unique_ptr<LaneKernel<W>> make_lane_kernel(const Stepper& stepper) {
   if (dynamic_cast<const Dop853Stepper*>(&stepper) != nullptr) return std::make_unique<Dop853Kernel<W>>();
   const auto* explicit_rk = dynamic_cast<const ExplicitRkStepper*>(&stepper);
   if (explicit_rk == nullptr) return nullptr;
@@ -119,5 +115,10 @@ template <int W>
     return std::make_unique<TableauKernel<W, stages>>(rk);
   });
 }
+
+extern template std::unique_ptr<LaneKernel<1>> make_lane_kernel<1>(const Stepper&);
+extern template std::unique_ptr<LaneKernel<2>> make_lane_kernel<2>(const Stepper&);
+extern template std::unique_ptr<LaneKernel<4>> make_lane_kernel<4>(const Stepper&);
+extern template std::unique_ptr<LaneKernel<8>> make_lane_kernel<8>(const Stepper&);
 
 }  // namespace xpr
