@@ -30,23 +30,27 @@ class LaneBatch {
   struct LaneSurface {
     SurfaceKind kind;
     Status status;
+    int direction;
     T level{};
-    T side{};  ///< +1, -1, or 0 where the ray has been on it only
+    T side{};      ///< +1, -1, or 0 where the ray has been on it only
+    T windings{};  ///< of the step under way, for the half-plane
+    M far{};       ///< it is not met on the step under way
   };
 
   // Between the lanes and the ray that each holds.
   void take_next(int i);
-  void take_up(int i, const PhaseState<double>& rate, double radius, double radial_rate);
+  void take_up(int i, const PhaseState<double>& rate);
   void set_scale(int i);
   void put_back(int i);
   void finish(int i, Status status);
-  void look_closer(int i, const LaneProbe<W>& probe);
+  void look_closer(int i);
 
   // In all lanes.
   void attempt();
   [[nodiscard]] M control_step(const M& numbers);
-  [[nodiscard]] M uneventful(const LaneProbe<W>& probe) const;
-  [[nodiscard]] M far_from(const LaneSurface& surface, const LaneProbe<W>& probe) const;
+  [[nodiscard]] M uneventful(const LaneProbe<W>& probe);
+  [[nodiscard]] M far_from_radius(const LaneSurface& surface, const LaneProbe<W>& probe) const;
+  void pass_half_plane(LaneSurface& surface) const;
   void commit(const M& quiet, const LaneProbe<W>& probe, const T& rest);
   void end_spent();
 
@@ -68,7 +72,7 @@ class LaneBatch {
   LaneStart<W> now_;
   LaneEnd<W> step_;
   CompensatedSum<T> lambda_;
-  T h_next_, h_first_, steps_, rejected_, radius_, radial_rate_, residual_, residual_max_;
+  T h_next_, h_first_, steps_, rejected_, radius_, radial_rate_, residual_, residual_max_, windings_;
   StepMemory<T> last_;
   M last_rejected_;
 };
@@ -90,7 +94,8 @@ LaneBatch<W>::LaneBatch(const Spacetime& spacetime, const TraceSettings& setting
   }
   SurfaceWatch& watch = alone_.front()->watch();
   for (std::size_t s = 0; s < watch.size(); ++s) {
-    surfaces_.push_back({.kind = watch.surface(s).kind, .status = watch.surface(s).status});
+    surfaces_.push_back(
+        {.kind = watch.surface(s).kind, .status = watch.surface(s).status, .direction = watch.surface(s).direction});
     lanes_see_all_ =
         lanes_see_all_ && (surfaces_[s].kind == SurfaceKind::radius || surfaces_[s].kind == SurfaceKind::half_plane);
   }
@@ -123,17 +128,16 @@ void LaneBatch<W>::take_next(int i) {
     const bool sided = spacetime_.interface_radius().has_value();
     set_lane(active_, i, true);
     set_scale(i);
-    take_up(i, sided ? spacetime_.flow_of_side(at.y, at.inside_interface) : ray.first_rate(),
-            spacetime_.radius(at.y.x()), std::numeric_limits<double>::quiet_NaN());
+    take_up(i, sided ? spacetime_.flow_of_side(at.y, at.inside_interface) : ray.first_rate());
     return;
   }
   set_lane(active_, i, false);
   set_lane(h_next_, i, 0.0);
 }
 
-/// From the ray into the lane. A radial rate that is not known is NaN: the next step is looked at closely.
+/// From the ray, at a point where the flow is `rate`, into the lane.
 template <int W>
-void LaneBatch<W>::take_up(int i, const PhaseState<double>& rate, double radius, double radial_rate) {
+void LaneBatch<W>::take_up(int i, const PhaseState<double>& rate) {
   RayTrace& ray = *alone_[static_cast<std::size_t>(i)];
   const RayProgress& at = ray.progress();
   set_lane_of<W>(now_.y, i, at.y);
@@ -150,8 +154,13 @@ void LaneBatch<W>::take_up(int i, const PhaseState<double>& rate, double radius,
   set_lane(rejected_, i, static_cast<double>(at.rejected));
   set_lane(residual_, i, at.null_residual);
   set_lane(residual_max_, i, at.null_residual_max);
-  set_lane(radius_, i, radius);
-  set_lane(radial_rate_, i, radial_rate);
+  set_lane(windings_, i, static_cast<double>(at.windings));
+  PhaseState<Pack<1>> here, along;
+  set_lane_of<1>(here, 0, at.y);
+  set_lane_of<1>(along, 0, rate);
+  const LaneProbe<1> probe = spacetime_.lane_charts().one->probe(here, along, {ray.sheet()});
+  set_lane(radius_, i, lane(probe.radius, 0));
+  set_lane(radial_rate_, i, lane(probe.radial_rate, 0));
   sheet_[static_cast<std::size_t>(i)] = ray.sheet();
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
     set_lane(surfaces_[s].level, i, ray.watch().surface(s).level);
@@ -178,6 +187,7 @@ void LaneBatch<W>::put_back(int i) {
   at.last = {lane(last_.h, i), lane(last_.error, i)};
   at.last_rejected = lane(last_rejected_, i);
   at.steps = static_cast<std::int64_t>(lane(steps_, i));
+  at.windings = static_cast<int>(lane(windings_, i));
   at.rejected = static_cast<std::int64_t>(lane(rejected_, i));
   at.null_residual = lane(residual_, i);
   at.null_residual_max = lane(residual_max_, i);
@@ -200,14 +210,19 @@ void LaneBatch<W>::finish(int i, Status status) {
 
 /// A good step on which something may have happened: as trace_ray takes it.
 template <int W>
-void LaneBatch<W>::look_closer(int i, const LaneProbe<W>& probe) {
+void LaneBatch<W>::look_closer(int i) {
   const auto place = static_cast<std::size_t>(i);
   RayTrace& ray = *alone_[place];
   put_back(i);
   const bool was_inside = ray.progress().inside_interface;
   kernel_->hand_over(i, now_, step_, ray.stepper());
   const StepOutcome outcome{.y = lane_of<W>(step_.y, i), .error_norm = lane(step_.error_norm, i)};
-  const std::optional<Status> status = ray.accept(outcome, lane(now_.h, i));
+  std::uint32_t far = 0;
+  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    // The half-plane's crossings are counted by the ray.
+    if (surfaces_[s].kind == SurfaceKind::radius && lane(surfaces_[s].far, i)) far |= 1U << s;
+  }
+  const std::optional<Status> status = ray.accept(outcome, lane(now_.h, i), far);
   RayProgress& at = ray.progress();
   if (status) return finish(i, *status);
   if (&ray.chart() != &spacetime_) {
@@ -216,11 +231,9 @@ void LaneBatch<W>::look_closer(int i, const LaneProbe<W>& probe) {
     ends_[index_[place]] = ray.end(ray.go_on());
     return take_next(i);
   }
-  if (at.y.c == outcome.y.c)
-    return take_up(i, lane_of<W>(step_.rate, i), lane(probe.radius, i), lane(probe.radial_rate, i));
   if (at.inside_interface != was_inside) set_scale(i);
-  take_up(i, spacetime_.flow_of_side(at.y, at.inside_interface), spacetime_.radius(at.y.x()),
-          std::numeric_limits<double>::quiet_NaN());
+  const bool whole = at.y.c == outcome.y.c;
+  take_up(i, whole ? lane_of<W>(step_.rate, i) : spacetime_.flow_of_side(at.y, at.inside_interface));
 }
 
 /// One step in every lane.
@@ -238,7 +251,7 @@ void LaneBatch<W>::attempt() {
   const M loud = good & !quiet;
   if (any(loud)) {
     for (int i = 0; i < W; ++i) {
-      if (lane(loud, i)) look_closer(i, probe);
+      if (lane(loud, i)) look_closer(i);
     }
   }
   end_spent();
@@ -274,37 +287,58 @@ Mask<W> LaneBatch<W>::control_step(const M& numbers) {
   return good;
 }
 
+/// How far a path can be from its chord: the cubic through both ends and both slopes deviates by at most 4/27 of this,
+/// and is monotone where this is less than the chord.
+template <class T>
+[[nodiscard]] T bend_of(const T& h, const T& g0, const T& rate0, const T& g1, const T& rate1) {
+  const T chord = g1 - g0;
+  return abs(h * rate0 - chord) + abs(h * rate1 - chord);
+}
+
 /// Where a step meets no stop and the ray goes on in this chart.
 template <int W>
-Mask<W> LaneBatch<W>::uneventful(const LaneProbe<W>& probe) const {
+Mask<W> LaneBatch<W>::uneventful(const LaneProbe<W>& probe) {
   if (!lanes_see_all_) return M(false);
   M calm = probe.inside & probe.stays & !(probe.null_residual > useless_residual);
-  for (const LaneSurface& surface : surfaces_) {
-    if (surface.status == Status::escaped) calm = calm & !(probe.radius >= surface.level);
-    if (surface.status == Status::captured) calm = calm & !(probe.radius <= surface.level);
-    calm = calm & far_from(surface, probe);
+  for (LaneSurface& surface : surfaces_) {
+    if (surface.kind == SurfaceKind::radius) {
+      surface.far = far_from_radius(surface, probe);
+      if (surface.status == Status::escaped) calm = calm & !(probe.radius >= surface.level);
+      if (surface.status == Status::captured) calm = calm & !(probe.radius <= surface.level);
+    } else {
+      pass_half_plane(surface);
+    }
+    calm = calm & surface.far;
   }
   return calm;
 }
 
-/// Where g, of one sign at both ends, is further from zero than its path bends away from its chord: the cubic through
-/// both ends and both slopes deviates from the chord by at most 4/27 of `bend`.
+/// Where the radius is on its side of the level at both ends, further from it than its path bends; or, for a surface
+/// that counts in one direction, where it goes the other way throughout.
 template <int W>
-Mask<W> LaneBatch<W>::far_from(const LaneSurface& surface, const LaneProbe<W>& probe) const {
-  const auto far = [&](const T& g0, const T& rate0, const T& g1, const T& rate1) {
-    const T chord = g1 - g0;
-    const T bend = abs(now_.h * rate0 - chord) + abs(now_.h * rate1 - chord);
-    return min(abs(g0), abs(g1)) > 0.5 * bend;
-  };
-  if (surface.kind == SurfaceKind::radius) {
-    const T g0 = radius_ - surface.level, g1 = probe.radius - surface.level;
-    return (surface.side * g0 > 0.0) & (surface.side * g1 > 0.0) & far(g0, radial_rate_, g1, probe.radial_rate);
-  }
-  const auto& [x0, x1] = std::pair(now_.y[1], step_.y[1]);
-  const auto& [y0, y1] = std::pair(now_.y[2], step_.y[2]);
-  // Only crossings at x < 0 are windings.
-  const M ahead = (x0 > 0.0) & (x1 > 0.0) & (y1 != 0.0) & far(x0, now_.rate[1], x1, step_.rate[1]);
-  return ahead | ((surface.side * y0 > 0.0) & (surface.side * y1 > 0.0) & far(y0, now_.rate[2], y1, step_.rate[2]));
+Mask<W> LaneBatch<W>::far_from_radius(const LaneSurface& surface, const LaneProbe<W>& probe) const {
+  const T g0 = radius_ - surface.level, g1 = probe.radius - surface.level;
+  const T bend = bend_of(now_.h, g0, radial_rate_, g1, probe.radial_rate);
+  M far = (surface.side * g0 > 0.0) & (surface.side * g1 > 0.0) & (min(abs(g0), abs(g1)) > 0.5 * bend);
+  if (surface.direction == 0) return far;
+  const auto direction = static_cast<double>(surface.direction);
+  const T chord = g1 - g0;
+  return far |
+         ((direction * surface.side <= 0.0) & (direction * g1 < 0.0) & (direction * chord < 0.0) & (bend < abs(chord)));
+}
+
+/// Counts a winding where y changes sign once at x clearly below zero; `far` where that, or nothing, is to be counted.
+template <int W>
+void LaneBatch<W>::pass_half_plane(LaneSurface& surface) const {
+  const T &x0 = now_.y[1], &x1 = step_.y[1], &y0 = now_.y[2], &y1 = step_.y[2];
+  const T bend = bend_of(now_.h, y0, now_.rate[2], y1, step_.rate[2]);
+  const M x_is_clear = min(abs(x0), abs(x1)) > 0.5 * bend_of(now_.h, x0, now_.rate[1], x1, step_.rate[1]);
+  const M ahead = (x0 > 0.0) & (x1 > 0.0) & x_is_clear & (y1 != 0.0);
+  const M stays = (surface.side * y0 > 0.0) & (surface.side * y1 > 0.0) & (min(abs(y0), abs(y1)) > 0.5 * bend);
+  const M behind = (x0 < 0.0) & (x1 < 0.0) & x_is_clear & (surface.side * y0 > 0.0) & (surface.side * y1 < 0.0) &
+                   (bend < abs(y1 - y0));
+  surface.windings = select(behind, select(y1 > y0, T(-1.0), T(1.0)), T(0.0));
+  surface.far = ahead | stays | behind;
 }
 
 /// Takes the steps of quiet lanes.
@@ -325,8 +359,13 @@ void LaneBatch<W>::commit(const M& quiet, const LaneProbe<W>& probe, const T& re
   radius_ = select(quiet, probe.radius, radius_);
   radial_rate_ = select(quiet, probe.radial_rate, radial_rate_);
   for (LaneSurface& surface : surfaces_) {
-    if (surface.kind != SurfaceKind::half_plane) continue;
-    surface.side = select(quiet, select(step_.y[2] < 0.0, T(-1.0), T(1.0)), surface.side);
+    if (surface.kind == SurfaceKind::half_plane) {
+      surface.side = select(quiet, select(step_.y[2] < 0.0, T(-1.0), T(1.0)), surface.side);
+      windings_ = select(quiet, windings_ + surface.windings, windings_);
+    } else {
+      const T side = select(probe.radius < surface.level, T(-1.0), T(1.0));
+      surface.side = select(quiet & (surface.side == 0.0), side, surface.side);
+    }
   }
 }
 

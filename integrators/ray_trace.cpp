@@ -120,7 +120,6 @@ std::optional<Status> RayTrace::begin(const PhaseState<double>& start, int sheet
   chart_ = &home_;
   sheet_ = sheet;
   now_ = {.y = start, .lambda = {}};
-  windings_ = 0;
   hits_.clear();
   if (stepper_) evaluations_counted_ = stepper_->evaluations();
   if (!all_finite(now_.y)) return Status::not_finite;
@@ -184,10 +183,11 @@ std::optional<Status> RayTrace::try_step() {
 }
 
 /// Takes a step of size h, or the part of it up to the first stop that it meets.
-std::optional<Status> RayTrace::accept(const StepOutcome& outcome, double h) {
+std::optional<Status> RayTrace::accept(const StepOutcome& outcome, double h, std::uint32_t far_surfaces) {
   const PhaseState<double> begin = now_.y;
   const double lambda_begin = now_.lambda.sum;
-  const std::span<const Crossing> crossings = watch_.crossings({*chart_, sheet_, begin, outcome.y, h, *stepper_});
+  const std::span<const Crossing> crossings =
+      watch_.crossings({*chart_, sheet_, begin, outcome.y, h, *stepper_}, far_surfaces);
   record_hits(crossings, h);
   const Surface* last = crossings.empty() ? nullptr : &watch_.surface(crossings.back().surface);
   const bool cut = last != nullptr && (last->terminal || last->cuts);
@@ -280,7 +280,7 @@ void RayTrace::retreat_into_domain(const PhaseState<double>& begin, double lambd
 void RayTrace::record_hits(std::span<const Crossing> crossings, double h) {
   for (const Crossing& crossing : crossings) {
     const Surface& surface = watch_.surface(crossing.surface);
-    if (surface.kind == SurfaceKind::half_plane && crossing.y[1] < 0.0) windings_ -= crossing.direction;
+    if (surface.kind == SurfaceKind::half_plane && crossing.y[1] < 0.0) now_.windings -= crossing.direction;
     if (surface.kind != SurfaceKind::event) continue;
     EventHit hit{surface.index, now_.lambda.sum + crossing.theta * h, crossing.y, chart_, sheet_};
     (void)projector_.restore(*chart_, hit.y);
@@ -307,7 +307,7 @@ RayEnd RayTrace::end(Status status) {
   out.evaluations = now_.evaluations;
   out.null_residual = now_.null_residual;
   out.null_residual_max = now_.null_residual_max;
-  out.windings = windings_;
+  out.windings = now_.windings;
   out.hits = std::move(hits_);
   return out;
 }

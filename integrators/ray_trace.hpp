@@ -46,6 +46,7 @@ struct RayProgress {
   std::int64_t steps = 0;
   std::int64_t rejected = 0;
   std::int64_t evaluations = 0;
+  int windings = 0;
   double null_residual = 0.0;
   double null_residual_max = 0.0;
 };
@@ -78,7 +79,8 @@ class RayTrace {
   /// Whether a budget is spent.
   [[nodiscard]] std::optional<Status> spent() const;
   /// Takes a step of size h, which the stepper made last, or the part of it up to the first stop that it meets.
-  [[nodiscard]] std::optional<Status> accept(const StepOutcome& outcome, double h);
+  /// `far_surfaces` has bit i set where surface i of the watch is known not to be met.
+  [[nodiscard]] std::optional<Status> accept(const StepOutcome& outcome, double h, std::uint32_t far_surfaces = 0);
   /// The ray's end; begin() sets out anew.
   [[nodiscard]] RayEnd end(Status status);
 
@@ -119,7 +121,6 @@ class RayTrace {
   bool keeps_stepper_ = false;
   long evaluations_counted_ = 0;
   MethodCard method_;
-  int windings_ = 0;
   std::vector<EventHit> hits_;
 };
 

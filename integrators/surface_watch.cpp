@@ -47,11 +47,14 @@ void SurfaceWatch::begin(const Spacetime& chart, const PhaseState<double>& y, in
   }
 }
 
-std::span<const Crossing> SurfaceWatch::crossings(const StepPath& path) {
+std::span<const Crossing> SurfaceWatch::crossings(const StepPath& path, std::uint32_t far) {
   found_.clear();
   if (surfaces_.empty()) return {};
   const PhaseState<double> middle = path.stepper.interpolate_coarse(0.5);
-  for (std::size_t i = 0; i < surfaces_.size(); ++i) search(i, path, middle);
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const bool known_far = i < 32 && ((far >> i) & 1U) != 0;
+    if (!known_far) search(i, path, middle);
+  }
 
   std::stable_sort(found_.begin(), found_.end(),
                    [](const Crossing& a, const Crossing& b) { return a.theta < b.theta; });

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -78,7 +79,8 @@ class SurfaceWatch {
 
   /// The crossings of a step, in order, up to the first that ends or cuts it; sides are those after it. With a method
   /// whose interpolant is not good enough, the stepper's last step is the cut one afterwards.
-  [[nodiscard]] std::span<const Crossing> crossings(const StepPath& path);
+  /// Surfaces whose bit is set in `far` are known not to be met and not looked for.
+  [[nodiscard]] std::span<const Crossing> crossings(const StepPath& path, std::uint32_t far = 0);
 
  private:
   struct Sample {

@@ -60,7 +60,7 @@ struct SpheroidalRadius {
 /// r >= 0 in x + iy = (r + ia) e^{i phi} sin theta, z = r cos theta: the root of r^4 - b r^2 - a^2 z^2 = 0 with
 /// b = x^2 + y^2 + z^2 - a^2, taken without cancellation on either side of b = 0. Sigma is the root's discriminant.
 template <class T>
-[[nodiscard]] constexpr SpheroidalRadius<T> spheroidal_radius(const Vec4<T>& x, const T& a) {
+[[nodiscard, gnu::always_inline]] constexpr SpheroidalRadius<T> spheroidal_radius(const Vec4<T>& x, const T& a) {
   const T b = square(x[1]) + square(x[2]) + square(x[3]) - square(a);
   const T az = a * x[3];
   const T sigma = sqrt(square(b) + 4.0 * square(az));

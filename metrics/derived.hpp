@@ -200,11 +200,14 @@ template <MetricModule M, class T>
 
 /// How far off the light cone y is: |g^{mu nu} p_mu p_nu| / (n.p)^2 = |2H| (-g^{tt}) / (p^t)^2, n being the unit normal
 /// to x^0 = const. Independent of the scale of p; defined where g^{tt} < 0.
+template <class T>
+[[nodiscard, gnu::always_inline]] constexpr T null_residual(const SymTensor4<T>& inverse_metric, const Vec4<T>& p) {
+  const Vec4<T> v = raise_index(inverse_metric, p);
+  return abs(contract(p, v) * -inverse_metric(0, 0) / (v[0] * v[0]));
+}
 template <MetricModule M, class T>
 [[nodiscard]] constexpr T null_residual(const M& metric, const PhaseState<T>& y) {
-  const SymTensor4<T> g = metric.inverse_metric(y.x());
-  const Vec4<T> v = raise_index(g, y.p());
-  return abs(contract(y.p(), v) * -g(0, 0) / (v[0] * v[0]));
+  return null_residual(metric.inverse_metric(y.x()), y.p());
 }
 
 /// The Jacobian J^a_b = d map^a / d x^b of a point map between charts.

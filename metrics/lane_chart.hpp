@@ -97,9 +97,9 @@ class LaneChartOf final : public LaneChart<W> {
     const D radius = module_.radius(along);
     out.radius = radius.value;
     out.radial_rate = radius.derivative[0];
-    const T residual = xpr::null_residual(module_, y);
-    const MaskOf<T> defined = module_.inverse_metric(y.x())(0, 0) < 0.0;
-    out.null_residual = select(defined, residual, T(std::numeric_limits<double>::quiet_NaN()));
+    const SymTensor4<T> g = module_.inverse_metric(y.x());
+    out.null_residual =
+        select(g(0, 0) < 0.0, xpr::null_residual(g, y.p()), T(std::numeric_limits<double>::quiet_NaN()));
     out.inside = inside_domain(module_, y.x());
     out.stays = Mask<W>(true);
     if constexpr (requires { module_.atlas_switch(PhaseState<double>{}, 1); }) {
