@@ -14,16 +14,11 @@ endif()
 add_library(xpr_determinism INTERFACE)
 target_compile_options(xpr_determinism INTERFACE -ffp-contract=off -fno-math-errno)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # gcc 12.2 vectorises a*b+-c in straight-line code into vfmaddsub and vfmsubadd even so. Lanes are explicit vectors and
-  # lose nothing; tests/tools/check_no_fma.py looks at the machine code.
-  target_compile_options(xpr_determinism INTERFACE -fno-tree-slp-vectorize)
-endif()
-target_compile_definitions(xpr_determinism INTERFACE EIGEN_DONT_VECTORIZE)
-# g++ 12's vectoriser fuses pairs such as (r x + a y, r y - a x) into vfmsubadd in spite of -ffp-contract=off. Packs are
-# vectors without its help. tests/tools/check_no_fma.py looks for such instructions.
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # gcc 12.2's vectoriser turns pairs such as (r x + a y, r y - a x) into vfmaddsub and vfmsubadd even so. Lanes are
+  # explicit vectors and lose nothing; tests/tools/check_no_fma.py looks at the machine code.
   target_compile_options(xpr_determinism INTERFACE -fno-tree-vectorize)
 endif()
+target_compile_definitions(xpr_determinism INTERFACE EIGEN_DONT_VECTORIZE)
 
 # The ISA level moves speed, never bits. "native" picks the highest x86-64 level that this machine runs.
 set(XPRIMERAY_ISA "native" CACHE STRING "x86-64-v2, x86-64-v3, x86-64-v4, native, or none")
