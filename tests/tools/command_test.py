@@ -392,7 +392,7 @@ class Sweep(CommandTest):
     def test_wrong_requests_name_what_would_be_right(self):
         for arguments, says in (
             (["--metric", "kerrr"], "did you mean 'kerr'?"),
-            (["--metric", "luneburg"], "no rays and no truth"),
+            (["--metric", "medium-uniform"], "no rays and no truth"),
             (["--methods", "dopri45"], "did you mean 'dopri54'?"),
             (["--methods", "verlet"], "does not separate"),
             (["--set", "a=1.2"], "spin a = 1.2"),
