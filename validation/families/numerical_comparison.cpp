@@ -65,7 +65,9 @@ Row end_row(const Lab& lab, const Bundle& bundle, const MethodAt& ours, std::str
   row.note = fmt::format("{} and {} evaluations, at most {} and {} steps a ray", mine.evaluations, other.evaluations,
                          mine.steps, other.steps);
   const double difference = distance(spatial_components(mine.y), spatial_components(other.y));
-  if (method_card(ours.method).order == method_card(theirs).order && mine.steps == other.steps) {
+  // DOP853 and Fehlberg's pair are of one order too, and may take as many steps, but they are two methods.
+  const bool one_method = ours.method == "dopri54" && theirs == "odeint:dopri5";
+  if (one_method && mine.steps == other.steps) {
     grade_bound(row, difference,
                 {step_bound * static_cast<double>(mine.steps),
                  fmt::format("the same {} steps, each to the bound of a single one", mine.steps)});
