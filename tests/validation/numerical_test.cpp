@@ -2,12 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 
 #include "validation/convergence.hpp"
 #include "validation/families.hpp"
 #include "validation/suite.hpp"
 
 namespace xpr {
+
+/// Google Test's name for a parameter: by default its bytes, pointers and all.
+void PrintTo(const Case& one, std::ostream* out) { *out << one.info.id; }
+void PrintTo(Verdict verdict, std::ostream* out) { *out << to_string(verdict); }
+
 namespace {
 
 class NumericalCase : public testing::TestWithParam<Case> {};
