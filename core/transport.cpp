@@ -199,8 +199,11 @@ void Transport::trace_in_lanes(std::span<const Ray> rays, const Spacetime& chart
   for (const std::size_t k : places) {
     batch.push_back({departures[k].start.state, departures[k].start.sheet, departures[k].r_max});
   }
+  if (batch.empty()) return;
+  TraceSettings trace = settings_.trace;
+  trace.r_max = batch.front().r_max;  // every ray has its own
   std::vector<RayEnd> ends(batch.size());
-  trace_rays(chart, batch, settings_.trace, lanes, ends);
+  trace_rays(chart, batch, trace, lanes, ends);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const std::size_t k = places[i];
     out[k] = arrival(rays[k], ends[i], RayAngles(*chart_, chart, rays[k].start, departures[k].start));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "integrators/lane_batch.hpp"
@@ -49,24 +50,25 @@ void trace_rays(const Spacetime& spacetime, std::span<const BatchRay> rays, cons
   if (rays.size() != ends.size()) {
     throw std::invalid_argument(fmt::format("{} rays but room for {} ends", rays.size(), ends.size()));
   }
-  TraceSettings own = settings;
-  // Rays with an r_max of their own need the surface there.
-  if (!own.r_max && !rays.empty() && rays.front().r_max) own.r_max = rays.front().r_max;
+  const auto has_r_max = [](const BatchRay& ray) { return ray.r_max.has_value(); };
+  if (!settings.r_max && std::any_of(rays.begin(), rays.end(), has_r_max)) {
+    throw std::invalid_argument("a ray has an r_max of its own, needs one in the settings too");
+  }
   const auto traced = [&] {
     switch (lanes) {
       case 1:
-        return traced_in_lanes<1>(spacetime, rays, own, ends);
+        return traced_in_lanes<1>(spacetime, rays, settings, ends);
       case 2:
-        return traced_in_lanes<2>(spacetime, rays, own, ends);
+        return traced_in_lanes<2>(spacetime, rays, settings, ends);
       case 4:
-        return traced_in_lanes<4>(spacetime, rays, own, ends);
+        return traced_in_lanes<4>(spacetime, rays, settings, ends);
       case 8:
-        return traced_in_lanes<8>(spacetime, rays, own, ends);
+        return traced_in_lanes<8>(spacetime, rays, settings, ends);
       default:
         throw std::invalid_argument(fmt::format("{} lanes, needs 1, 2, 4 or 8", lanes));
     }
   }();
-  if (!traced) trace_one_by_one(spacetime, rays, own, ends);
+  if (!traced) trace_one_by_one(spacetime, rays, settings, ends);
 }
 
 }  // namespace xpr

@@ -16,7 +16,7 @@ namespace xpr {
 struct BatchRay {
   PhaseState<double> start;
   int sheet = 1;
-  std::optional<double> r_max = {};  ///< its own, in place of the settings'
+  std::optional<double> r_max = {};  ///< its own, in place of the settings', which must have one then
 };
 
 /// The widths of this build.
@@ -29,8 +29,9 @@ inline constexpr std::array<int, 4> lane_widths = {1, 2, 4, 8};
 /// traced one at a time.
 [[nodiscard]] bool runs_in_lanes(const Spacetime& spacetime, const TraceSettings& settings);
 
-/// Traces ray k into ends[k]. `lanes` is one of lane_widths. Throws std::invalid_argument as trace_ray does, and for
-/// other widths or spans of different lengths. One thread; from several at once on different rays.
+/// Traces ray k into ends[k]. `lanes` is one of lane_widths. Throws std::invalid_argument as trace_ray does, for
+/// other widths, spans of different lengths, and an r_max where the settings have none. One thread; from several at
+/// once on different rays.
 void trace_rays(const Spacetime& spacetime, std::span<const BatchRay> rays, const TraceSettings& settings, int lanes,
                 std::span<RayEnd> ends);
 

@@ -24,11 +24,13 @@ struct Column {
 };
 
 std::vector<Column> columns() {
-  return {{"alpha", &ErrorMap::alpha, {"1", "screen coordinate to the right, in M"}},
-          {"beta", &ErrorMap::beta, {"1", "screen coordinate upwards, in M"}},
+  return {{"alpha", &ErrorMap::alpha, {"1", "screen coordinate to the right, in the unit in which M is given"}},
+          {"beta", &ErrorMap::beta, {"1", "screen coordinate upwards, in the unit in which M is given"}},
           {"direction_error", &ErrorMap::direction_error, {"radian", "angle between the ends' directions"}},
           {"swept_error", &ErrorMap::swept_error, {"radian", "error of the swept azimuth"}},
-          {"time_error", &ErrorMap::time_error, {"1", "error of the elapsed coordinate time, in M"}},
+          {"time_error",
+           &ErrorMap::time_error,
+           {"1", "error of the elapsed coordinate time, in the unit in which M is given"}},
           {"truth_error", &ErrorMap::truth_error, {"radian", "the closed form's own error in direction"}},
           {"condition", &ErrorMap::condition, {"radian", "turn of the end for a step of M on the screen"}}};
 }

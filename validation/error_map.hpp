@@ -36,13 +36,13 @@ inline constexpr double critical_condition = 30.0;
 struct ErrorMap {
   int columns = 0;
   int rows = 0;
-  std::vector<double> alpha, beta;          ///< in the unit of M
+  std::vector<double> alpha, beta;          ///< in the unit in which M is given
   std::vector<std::int64_t> pixel_class;    ///< PixelClass, by the closed form
   std::vector<std::int64_t> status;         ///< Status of the traced ray
   std::vector<std::int64_t> status_agrees;  ///< 1: traced and exact rays escape, or are captured, alike
   std::vector<double> direction_error;      ///< angle between the ends' directions, radian
   std::vector<double> swept_error;          ///< of the azimuth swept, radian; modulo 2 pi where lambda = 0
-  std::vector<double> time_error;           ///< of the elapsed t, in the unit of M
+  std::vector<double> time_error;           ///< of the elapsed t, in the unit of alpha
   std::vector<double> truth_error;          ///< what the closed form says of its own direction, radian
   std::vector<double> condition;            ///< rad per M; NaN where a neighbour's fate is another
   std::vector<std::int64_t> steps, rejected, evaluations;

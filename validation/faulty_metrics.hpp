@@ -18,6 +18,7 @@ namespace xpr {
 /// M with `Slip` made in g^{mu nu}: Slip{}(module, x, g).
 template <class M, class Slip>
 struct Wrong : M {
+  static constexpr bool for_lanes = false;  // the suite traces its rays one by one
   template <Scalar T>
   [[nodiscard]] SymTensor4<T> inverse_metric(const Vec4<T>& x) const {
     SymTensor4<T> g = M::inverse_metric(x);

@@ -153,6 +153,12 @@ TEST(BatchTracer, refuses_other_widths_and_too_little_room) {
   settings.r_max = 10.0;
   EXPECT_THROW(trace_rays(*flat, rays, settings, 3, ends), std::invalid_argument);
   EXPECT_THROW(trace_rays(*flat, rays, settings, 4, std::span(ends).first(1)), std::invalid_argument);
+  // A stop that only some ray knows would be missed by the others, or met late.
+  std::vector<BatchRay> own = rays;
+  own[1].r_max = 5.0;
+  settings.r_max.reset();
+  EXPECT_THROW(trace_rays(*flat, own, settings, 4, ends), std::invalid_argument);
+  settings.r_max = 10.0;
   settings.tol = -1.0;
   EXPECT_THROW(trace_rays(*flat, rays, settings, 4, ends), std::invalid_argument);
 }

@@ -247,6 +247,18 @@ TEST(StepControl, shortens_and_lengthens_within_bounds) {
   EXPECT_EQ(step_factor(std::numeric_limits<double>::infinity(), 8), 0.1);
 }
 
+TEST(StepControl, foresees_errors_that_grow_and_ignores_those_that_fall) {
+  // With equal steps whose errors grow from 0.1 to 0.4 the next is foreseen to be 1.6: shorter by 1.6^(-1/8) than the
+  // safety factor alone.
+  const auto last = StepMemory<double>::of(2.0, 0.1);
+  EXPECT_NEAR(step_factor_foreseen(2.0, 0.4, last, 8), 0.9 * std::pow(1.6, -1.0 / 8.0), 1e-15);
+  // The same error from a step half as long as the last: twice as much of it a length, so half as long again.
+  EXPECT_NEAR(step_factor_foreseen(1.0, 0.1, last, 8), 0.5 * 0.9 * std::pow(0.1, -1.0 / 8.0), 1e-15);
+  // Errors that fall, and a first step, are left to the plain controller.
+  EXPECT_EQ(step_factor_foreseen(2.0, 0.05, last, 8), step_factor(0.05, 8));
+  EXPECT_EQ(step_factor_foreseen(2.0, 0.4, StepMemory<double>{}, 8), step_factor(0.4, 8));
+}
+
 TEST(StepControl, begins_with_a_step_that_is_accepted) {
   for (const double tol : {1e-4, 1e-8, 1e-12}) {
     const PhaseState<double> y = test::orbits[2].at(0.0);

@@ -73,6 +73,7 @@ class ErrorMapTest(unittest.TestCase):
         self.assertIn("did you mean 'inclination'", self.refused("--observer", "r=100,inclinaton=60deg"))
         self.assertIn("needs columns x rows", self.refused("--pixels", "0x16"))
         self.assertIn("needs columns x rows", self.refused("--pixels", "16"))
+        self.assertIn("16777216 pixels", self.refused("--pixels", "8192x4096"))
         self.assertIn("half-width 0", self.refused("--screen", "0"))
         self.assertIn("kerr and schwarzschild", self.refused("--metric", "ellis"))
         self.assertIn("spin a = 1.2", self.refused("--set", "a=1.2"))

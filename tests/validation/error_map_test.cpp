@@ -9,7 +9,7 @@ namespace {
 
 ErrorMapSettings settings_of(const std::string& metric, const std::string& method, double tol) {
   ErrorMapSettings settings;
-  settings.screen = {.radius = 1000.0, .inclination = 1.05, .half_width = 12.0, .pixels = {24, 24}};
+  settings.screen = {.radius = 1000.0, .inclination = 1.0471975511965976, .half_width = 12.0, .pixels = {24, 24}};
   settings.transport.metric = metric;
   settings.transport.trace.method = method;
   settings.transport.trace.tol = tol;
@@ -27,16 +27,21 @@ TEST(ErrorMap, finds_every_class_right_and_errors_that_follow_the_tolerance) {
     EXPECT_EQ(loose[0].pixels, 576);
     EXPECT_EQ(loose[0].wrong_status, 0) << metric;
     EXPECT_EQ(tight[0].wrong_status, 0) << metric;
-    // The shadow of radius about 5.2 M covers 85/576 of the screen.
-    EXPECT_NEAR(static_cast<double>(tight[2].pixels), 85.0, 15.0) << metric;
-    // Local extrapolation: the error is proportional to the tolerance, here within a factor of 30 over four decades;
-    // the constant is that of the path's length in steps, some tens.
+    // A pixel is one M^2; the shadow's area is 27 pi, of Kerr 78.559 at 60 degrees. Its edge crosses some 33 pixels, of
+    // which a quarter more or less may count, near-critical ones among them.
+    const double area = metric == "kerr" ? 78.559 : 84.823;
+    EXPECT_NEAR(static_cast<double>(tight[2].pixels), area, 8.0) << metric;
+    // Local extrapolation: the error is proportional to the tolerance, over four decades within what the number of
+    // steps (two and a half times as many) and the shape of the estimate at long steps change.
+    EXPECT_GT(loose[0].median / tight[0].median, 1e4 / 5.0) << metric;
+    EXPECT_LT(loose[0].median / tight[0].median, 1e4 * 5.0) << metric;
+    // Each step errs by up to the tolerance, all to one side at the worst; in the middle of the rays they do not add
+    // up.
+    const double worst = 1e-10 * tight[0].steps;
     EXPECT_LT(tight[0].median, 1e-10) << metric;
-    EXPECT_GT(loose[0].median / tight[0].median, 1e4 / 30.0) << metric;
-    EXPECT_LT(loose[0].median / tight[0].median, 1e4 * 30.0) << metric;
-    EXPECT_LT(tight[0].swept_median, 1e-9) << metric;
-    // Near-critical rays make the tail; scaled by their condition they are as good as the others.
-    EXPECT_LT(tight[0].scaled_p99, 1e-8) << metric;
+    EXPECT_LT(tight[0].swept_median, worst) << metric;
+    // Near-critical rays make the tail; over their condition they are as good as the others.
+    EXPECT_LT(tight[0].scaled_p99, worst) << metric;
   }
 }
 

@@ -5,19 +5,13 @@
 Writes error-map.svg, error-map.png and index.json.
 """
 
-import json
-import pathlib
 import sys
 
 import h5py
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from figure_kit import BLUE, GREEN, GREY, STYLE, VERMILION, names_of
+from figure_kit import BLUE, GREEN, GREY, VERMILION, names_of, plt, ready, save, write_index
 
 CLASSES = {"escaped": BLUE, "captured": GREEN, "near_critical": VERMILION}
 NAMES = {"escaped": "escaped", "captured": "captured", "near_critical": "near-critical"}
@@ -38,7 +32,7 @@ def screen(axes, figure, image, extent, title, label, cmap, logarithmic=True):
     axes.grid(False)
     axes.set_facecolor("#c9ced6")
     shown = axes.imshow(image, origin="lower", extent=extent, cmap=cmap, interpolation="nearest", **kind)
-    axes.set(title=title, xlabel=r"$\alpha$ [M]", ylabel=r"$\beta$ [M]")
+    axes.set(title=title, xlabel=r"$\alpha$ [unit of M]", ylabel=r"$\beta$ [unit of M]")
     figure.colorbar(shown, ax=axes, label=label, shrink=0.86)
 
 
@@ -86,16 +80,12 @@ def main(arguments):
     if len(arguments) != 2:
         print(__doc__, file=sys.stderr)
         return 2
-    directory = pathlib.Path(arguments[1])
-    directory.mkdir(parents=True, exist_ok=True)
-    plt.rcParams.update(STYLE)
+    directory = ready(arguments[1])
     with h5py.File(arguments[0], "r") as file:
         figure, caption = draw(file)
         title = str(file.attrs["title"])
-    figure.savefig(directory / "error-map.svg", metadata={"Date": None, "Creator": None})
-    figure.savefig(directory / "error-map.png", metadata={"Software": None})
-    index = {"figures": [{"name": "error-map", "title": title, "caption": caption}], "problems": []}
-    (directory / "index.json").write_text(json.dumps(index, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    save(figure, directory, "error-map")
+    write_index(directory, {"figures": [{"name": "error-map", "title": title, "caption": caption}], "problems": []})
     return 0
 
 

@@ -1,6 +1,8 @@
 """What the figures share: reading a report.h5, looks of methods, axes and legends."""
 
+import json
 import math
+import pathlib
 
 import h5py
 import matplotlib
@@ -156,3 +158,23 @@ class Report:
         for curves in panels.values():
             curves.sort(key=lambda curve: method_rank(curve.attrs["method"]))
         return dict(sorted(panels.items()))
+
+
+def ready(path):
+    """The directory for figures, made if need be, with matplotlib set to look as figures here do."""
+    directory = pathlib.Path(path)
+    directory.mkdir(parents=True, exist_ok=True)
+    plt.rcParams.update(STYLE)
+    return directory
+
+
+def save(figure, directory, name):
+    """As SVG and PNG, without a date: equal figures are equal files."""
+    figure.savefig(directory / f"{name}.svg", metadata={"Date": None, "Creator": None})
+    figure.savefig(directory / f"{name}.png", metadata={"Software": None})
+    plt.close(figure)
+
+
+def write_index(directory, index):
+    """What was drawn, for the report that shows it: {"figures": [{"name", "title", "caption"}], "problems": [...]}."""
+    (directory / "index.json").write_text(json.dumps(index, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

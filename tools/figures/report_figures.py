@@ -8,14 +8,12 @@ report.h5 gives the same bytes. A figure that fails is named under "problems" in
 Change these scripts freely: they read the layout that reports/datasets.hpp describes.
 """
 
-import json
-import pathlib
 import sys
 import traceback
 
 import h5py
 
-from figure_kit import STYLE, Report, plt
+from figure_kit import Report, ready, save, write_index
 from spacetime_figures import (ellis_deflection, kerr_critical, kerr_deflection, kerr_shadow, projection,
                                schwarzschild_deflection)
 from sweep_figures import convergence, error_over_tolerance, null_drift, tolerance_proportionality, work_precision
@@ -35,19 +33,11 @@ FIGURES = {
 }
 
 
-def save(figure, directory, name):
-    figure.savefig(directory / f"{name}.svg", metadata={"Date": None, "Creator": None})
-    figure.savefig(directory / f"{name}.png", metadata={"Software": None})
-    plt.close(figure)
-
-
 def main(arguments):
     if len(arguments) != 2:
         print(__doc__, file=sys.stderr)
         return 2
-    directory = pathlib.Path(arguments[1])
-    directory.mkdir(parents=True, exist_ok=True)
-    plt.rcParams.update(STYLE)
+    directory = ready(arguments[1])
     index = {"figures": [], "problems": []}
     with h5py.File(arguments[0], "r") as file:
         report = Report(file)
@@ -62,7 +52,7 @@ def main(arguments):
             except Exception as error:  # one figure that fails must not take the others with it
                 traceback.print_exc()
                 index["problems"].append(f"{name}: {type(error).__name__}: {error}")
-    (directory / "index.json").write_text(json.dumps(index, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    write_index(directory, index)
     return 0
 
 

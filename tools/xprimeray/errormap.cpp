@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -82,6 +83,11 @@ void set_pixels(CameraScreen& screen, const std::string& text) {
     return value;
   };
   screen.pixels = {whole(text.substr(0, cross)), whole(cross == std::string::npos ? "" : text.substr(cross + 1))};
+  // A pixel takes some 250 bytes of memory: 4 GB.
+  constexpr std::int64_t most = 16'777'216;
+  if (std::int64_t{screen.pixels[0]} * screen.pixels[1] > most) {
+    refuse(fmt::format("--pixels {}, needs {} pixels (4096x4096) or fewer", text, most));
+  }
 }
 
 std::string title_of(const ErrorMapSettings& map) {
@@ -166,7 +172,8 @@ int run_errormap(ErrorMapOptions& options) {
                            .dump());
   } else if (!options.output.quiet) {
     fmt::print("{}\n{}", inputs.title, error_map_table(inputs.summary));
-    fmt::print("{:.1f} s; rays_hash {}; {}/errormap.md\n", inputs.seconds, inputs.map.rays_hash, options.out);
+    fmt::print("{:.1f} s; rays_hash {}; {}\n", inputs.seconds, inputs.map.rays_hash,
+               (std::filesystem::path(options.out) / "errormap.md").string());
   }
   for (const std::string& problem : problems) fmt::print(stderr, "xprimeray: {}\n", problem);
   return all.wrong_status > 0 ? 1 : 0;
