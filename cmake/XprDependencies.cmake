@@ -40,3 +40,11 @@ find_library(GMP_LIBRARY gmp REQUIRED)
 add_library(xpr_mpfr INTERFACE)
 target_include_directories(xpr_mpfr SYSTEM INTERFACE "${MPFR_INCLUDE_DIR}")
 target_link_libraries(xpr_mpfr INTERFACE "${MPFR_LIBRARY}" "${GMP_LIBRARY}")
+
+# Arb: its own library on Debian 12, part of FLINT from version 3 on.
+find_path(ARB_INCLUDE_DIR arb.h PATH_SUFFIXES flint REQUIRED)
+find_library(ARB_LIBRARY NAMES flint-arb arb flint REQUIRED)
+find_library(FLINT_LIBRARY flint REQUIRED)
+add_library(xpr_arb INTERFACE)
+target_include_directories(xpr_arb SYSTEM INTERFACE "${ARB_INCLUDE_DIR}")
+target_link_libraries(xpr_arb INTERFACE "${ARB_LIBRARY}" "${FLINT_LIBRARY}" xpr_mpfr)

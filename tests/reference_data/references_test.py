@@ -1,7 +1,7 @@
 """Every work cited in the sources stands in reference_data/references.bib, once, in alphabetical order.
 
-Cited means [Key] in a source or a document, or a key in a string after `cites`, where a key is a name, a year and perhaps a
-word: Darwin1959, GrallaLupsasca2020Lensing.
+Cited means [Key] in a source or a document, a key in a string after `cites`, or one in a table's line `# cites:`, where a
+key is a name, a year and perhaps a word: Darwin1959, GrallaLupsasca2020Lensing.
 """
 
 import pathlib
@@ -11,7 +11,7 @@ import unittest
 
 ROOT = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("metrics", "integrators", "core", "validation", "reports", "tools", "docs", "tests", "scenes", "reference_data")
-ENDINGS = {".hpp", ".cpp", ".md", ".py", ".toml"}
+ENDINGS = {".hpp", ".cpp", ".md", ".py", ".toml", ".csv"}
 KEY = r"[A-Z][A-Za-z]*(?:18|19|20)\d\d[A-Za-z]*"
 REQUIRED = {
     "article": {"author", "title", "journal", "year"},
@@ -32,6 +32,8 @@ def cited_keys(text):
     """The keys that a source cites."""
     keys = set(re.findall(rf"\[({KEY})\]", text))
     for listed in re.findall(r'cites\s*=\s*((?:"[^"]*"\s*)+)', text):
+        keys.update(re.findall(rf"\b{KEY}\b", listed))
+    for listed in re.findall(r"^# cites: (.*)$", text, re.MULTILINE):
         keys.update(re.findall(rf"\b{KEY}\b", listed))
     return keys
 

@@ -30,6 +30,7 @@ Command register_conform(CLI::App& program);
 Command register_validate(CLI::App& program);
 Command register_errormap(CLI::App& program);
 Command register_repro(CLI::App& program);
+Command register_reference(CLI::App& program);
 
 /// --quiet and --json, as every subcommand that works for long has them.
 struct OutputFlags {
