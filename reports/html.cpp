@@ -96,7 +96,8 @@ class HtmlPage : public Page {
       for (std::size_t i = 0; i < row.size(); ++i) {
         const Cell& cell = row[i];
         std::string text = xml_escaped(cell.text);
-        if (!cell.anchor.empty()) text = fmt::format("<a href=\"#{}\">{}</a>", cell.anchor, text);
+        const std::string target = xml_escaped(cell.file) + (cell.anchor.empty() ? "" : "#" + cell.anchor);
+        if (!target.empty()) text = fmt::format("<a href=\"{}\">{}</a>", target, text);
         const std::string_view alignment = i < table.columns.size() && table.columns[i].number ? "number" : "";
         out() += fmt::format("<td{}>{}</td>", class_attribute(alignment, tone_class(cell.tone)), text);
       }

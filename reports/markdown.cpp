@@ -53,7 +53,8 @@ class MarkdownPage : public Page {
       out_ += '|';
       for (const Cell& cell : row) {
         const std::string text = toned(escaped(cell.text), cell.text.empty() ? Tone::plain : cell.tone);
-        out_ += cell.anchor.empty() ? fmt::format(" {} |", text) : fmt::format(" [{}](#{}) |", text, cell.anchor);
+        const std::string target = cell.file + (cell.anchor.empty() ? "" : "#" + cell.anchor);
+        out_ += target.empty() ? fmt::format(" {} |", text) : fmt::format(" [{}]({}) |", text, target);
       }
       out_ += '\n';
     }

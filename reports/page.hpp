@@ -16,6 +16,7 @@ struct Cell {
   std::string text;
   Tone tone = Tone::plain;
   std::string anchor = "";  ///< links to the section of that anchor where not empty
+  std::string file = "";    ///< links to that file of the report where not empty
 };
 
 struct TableColumn {

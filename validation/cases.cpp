@@ -5,6 +5,7 @@
 
 #include "validation/case.hpp"
 #include "validation/families.hpp"
+#include "validation/paper.hpp"
 
 namespace xpr {
 
@@ -13,7 +14,8 @@ namespace {
 /// In report order.
 constexpr std::array families = {
     conformance_cases,  //
-    flat_cases,        schwarzschild_cases, kerr_cases, ellis_cases, media_cases, ellipsoid_cases, numerical_cases,
+    flat_cases,        schwarzschild_cases, kerr_cases,      ellis_cases,
+    media_cases,       ellipsoid_cases,     numerical_cases, paper_cases,
 };
 
 }  // namespace

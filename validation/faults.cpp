@@ -5,13 +5,15 @@
 
 #include "validation/case.hpp"
 #include "validation/families.hpp"
+#include "validation/paper.hpp"
 
 namespace xpr {
 
 namespace {
 
 constexpr std::array families = {
-    metric_faults, flat_faults, schwarzschild_faults, kerr_faults, ellis_faults, media_faults, numerical_faults,
+    metric_faults, flat_faults,  schwarzschild_faults, kerr_faults,
+    ellis_faults,  media_faults, numerical_faults,     paper_faults,
 };
 
 }  // namespace
