@@ -17,29 +17,25 @@ using Stages = std::array<PhaseState<T>, dense_stages>;
 /// first entry of every row is one of them.
 template <const auto& table, std::size_t R, class T>
 [[nodiscard, gnu::always_inline]] constexpr T weighted_component(const Stages<T>& k, std::size_t i) {
-  T sum = table[R][0] * k[0][i];
-  const auto add = [&]<std::size_t J>() __attribute__((always_inline)) {
-    if constexpr (table[R][J] != 0.0) sum = sum + table[R][J] * k[J][i];
-  };
-  [&]<std::size_t... J>(std::index_sequence<J...>) { (add.template operator()<J + 1>(), ...); }
+  return [&]<std::size_t... J>(std::index_sequence<J...>) __attribute__((always_inline)) {
+    T sum = table[R][0] * k[0][i];
+    ((table[R][J + 1] != 0.0 ? void(sum = sum + table[R][J + 1] * k[J + 1][i]) : void()), ...);
+    return sum;
+  }
   (std::make_index_sequence<dense_stages - 1>{});
-  return sum;
 }
 
 template <const auto& table, std::size_t R, class T>
 [[nodiscard]] constexpr PhaseState<T> weighted_rate(const Stages<T>& k) {
-  PhaseState<T> sum;
-  for_components([&](auto i) { sum[i] = weighted_component<table, R>(k, i); });
-  return sum;
+  return PhaseState<T>::of([&](auto i) __attribute__((always_inline)) { return weighted_component<table, R>(k, i); });
 }
 
 /// y + h times the rate that row R of `a` weighs.
 template <std::size_t R, class T, class H>
 [[nodiscard, gnu::always_inline]] constexpr PhaseState<T> stage(const PhaseState<T>& y, const H& h,
                                                                 const Stages<T>& k) {
-  PhaseState<T> out;
-  for_components([&](auto i) { out[i] = y[i] + h * weighted_component<a, R>(k, i); });
-  return out;
+  return PhaseState<T>::of([&](auto i)
+                               __attribute__((always_inline)) { return y[i] + h * weighted_component<a, R>(k, i); });
 }
 
 /// The end of one step. On entry k[0] holds flow(y); on return k[0] to k[11] hold the stages.
@@ -55,14 +51,11 @@ template <class T, class H, class FlowT>
 template <class T>
 [[nodiscard]] T error_of_step(const ErrorScaleOf<T>& scale, const PhaseState<T>& y, const PhaseState<T>& end,
                               const T& h, const Stages<T>& k) {
-  PhaseState<T> fifth = weighted_rate<error_estimates, 0>(k);
-  PhaseState<T> third = weighted_rate<error_estimates, 1>(k);
-  for (std::size_t i = 0; i < 8; ++i) {
-    fifth[i] = fifth[i] * h;
-    third[i] = third[i] * h;
-  }
-  const T norm5 = error_norm(scale, y, end, fifth);
-  const T norm3 = error_norm(scale, y, end, third);
+  const PhaseState<T> weight = error_weights(scale, y, end);
+  const T norm5 = error_norm(
+      weight, [&](auto i) __attribute__((always_inline)) { return h * weighted_component<error_estimates, 0>(k, i); });
+  const T norm3 = error_norm(
+      weight, [&](auto i) __attribute__((always_inline)) { return h * weighted_component<error_estimates, 1>(k, i); });
   const T damped = norm5 * norm5 / sqrt(norm5 * norm5 + 0.01 * norm3 * norm3);
   return select(norm5 == 0.0, 0.0 * norm3, damped);
 }

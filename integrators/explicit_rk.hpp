@@ -50,21 +50,19 @@ using RkStages = std::array<PhaseState<T>, RkCoefficients::max_stages>;
 template <std::size_t N, class T>
 [[nodiscard, gnu::always_inline]] constexpr PhaseState<T> weighted_rate(const RkCoefficients::Row& weight,
                                                                         const RkStages<T>& k) {
-  PhaseState<T> sum;
-  [&]<std::size_t... J>(std::index_sequence<J...>) {
-    for_components([&](auto i) { sum[i] = ((weight[0] * k[0][i]) + ... + (weight[J + 1] * k[J + 1][i])); });
+  return [&]<std::size_t... J>(std::index_sequence<J...>) __attribute__((always_inline)) {
+    return PhaseState<T>::of([&](auto i) __attribute__((always_inline)) {
+      return ((weight[0] * k[0][i]) + ... + (weight[J + 1] * k[J + 1][i]));
+    });
   }
   (std::make_index_sequence<N - 1>{});
-  return sum;
 }
 
 /// y + h rate. H is double, or a Pack with a step size for each lane.
 template <class T, class H>
 [[nodiscard, gnu::always_inline]] constexpr PhaseState<T> advanced(const PhaseState<T>& y, const H& h,
                                                                    const PhaseState<T>& rate) {
-  PhaseState<T> out;
-  for_components([&](auto i) { out[i] = y[i] + h * rate[i]; });
-  return out;
+  return PhaseState<T>::of([&](auto i) __attribute__((always_inline)) { return y[i] + h * rate[i]; });
 }
 
 /// The end of one step of a method with N stages. On entry k[0] holds flow(y); on return k holds all stages.
@@ -110,9 +108,9 @@ template <class T, class H, class FlowT>
 template <std::size_t N, class T>
 [[nodiscard]] T error_of_step(const RkCoefficients& rk, const ErrorScaleOf<T>& scale, const PhaseState<T>& y,
                               const PhaseState<T>& end, const T& h, const RkStages<T>& k) {
-  PhaseState<T> error = weighted_rate<N>(rk.error, k);
-  for (std::size_t i = 0; i < 8; ++i) error[i] = error[i] * h;
-  return error_norm(scale, y, end, error);
+  const PhaseState<T> error = weighted_rate<N>(rk.error, k);
+  return error_norm(
+      error_weights(scale, y, end), [&](auto i) __attribute__((always_inline)) { return h * error[i]; });
 }
 
 /// An explicit Runge-Kutta method behind the stepper interface.

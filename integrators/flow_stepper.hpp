@@ -17,18 +17,31 @@ namespace xpr {
                                                const PhaseState<double>& y1, const PhaseState<double>& rate1, double h,
                                                double theta);
 
-/// max_i |error_i| / (absolute_i + relative_i max(|y0_i|, |y1_i|)); NaN where any component is.
+/// 1 / (absolute_i + relative_i max(|y0_i|, |y1_i|)): what makes an error in component i one in tolerances.
+template <class T>
+[[nodiscard]] constexpr PhaseState<T> error_weights(const ErrorScaleOf<T>& scale, const PhaseState<T>& y0,
+                                                    const PhaseState<T>& y1) {
+  return PhaseState<T>::of([&](auto i) __attribute__((always_inline)) {
+    return 1.0 / (scale.absolute[i] + scale.relative[i] * max(abs(y1[i]), abs(y0[i])));
+  });
+}
+
+/// max_i |error(i)| weight_i; NaN where any component is.
+template <class T, class F>
+[[nodiscard]] constexpr T error_norm(const PhaseState<T>& weight, const F& error) {
+  const PhaseState<T> ratio =
+      PhaseState<T>::of([&](auto i) __attribute__((always_inline)) { return abs(error(i)) * weight[i]; });
+  const auto larger = [](const T& a, const T& b) { return select(a > b, a, b); };
+  const T sum = ((ratio[0] + ratio[1]) + (ratio[2] + ratio[3])) + ((ratio[4] + ratio[5]) + (ratio[6] + ratio[7]));
+  const T largest = larger(larger(larger(ratio[0], ratio[1]), larger(ratio[2], ratio[3])),
+                           larger(larger(ratio[4], ratio[5]), larger(ratio[6], ratio[7])));
+  return select(sum == sum, largest, T(std::numeric_limits<double>::quiet_NaN()));
+}
 template <class T>
 [[nodiscard]] constexpr T error_norm(const ErrorScaleOf<T>& scale, const PhaseState<T>& y0, const PhaseState<T>& y1,
                                      const PhaseState<T>& error) {
-  T largest = T(0.0);
-  MaskOf<T> all_numbers(true);
-  for (std::size_t i = 0; i < 8; ++i) {
-    const T ratio = abs(error[i]) / (scale.absolute[i] + scale.relative[i] * max(abs(y1[i]), abs(y0[i])));
-    all_numbers = all_numbers & (ratio == ratio);
-    largest = select(ratio > largest, ratio, largest);
-  }
-  return select(all_numbers, largest, T(std::numeric_limits<double>::quiet_NaN()));
+  return error_norm(
+      error_weights(scale, y0, y1), [&](auto i) __attribute__((always_inline)) { return error[i]; });
 }
 
 /// Makes `where` the flow at y without a copy: a copy would read at once, in wide words, what the flow has just written
@@ -40,14 +53,6 @@ void put_rate(FlowT&& flow, const PhaseState<T>& y, PhaseState<T>& where) {
   } else {
     ::new (static_cast<void*>(&where)) PhaseState<T>(flow(y));
   }
-}
-
-/// Calls f with 0 to 7 as constants: for the components of a state, laid out flat. A loop over them keeps packs in
-/// memory; -O2 does not unroll it.
-template <class F>
-[[gnu::always_inline]] constexpr void for_components(const F& f) {
-  [&]<std::size_t... I>(std::index_sequence<I...>) { (f(std::integral_constant<std::size_t, I>{}), ...); }
-  (std::make_index_sequence<8>{});
 }
 
 /// Base of the steppers. A derived step() calls begin_step, then end_step.

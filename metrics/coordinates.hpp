@@ -41,31 +41,41 @@ template <class T>
 /// eta^{mu nu} - f l^mu l^nu for a null vector l, index up: the inverse of the Kerr-Schild form eta + f l l.
 template <class T>
 [[nodiscard]] constexpr SymTensor4<T> kerr_schild_inverse(const T& f, const Vec4<T>& l) {
-  SymTensor4<T> g;
-  for (std::size_t mu = 0; mu < 4; ++mu) {
-    const T f_l = f * l[mu];
-    for (std::size_t nu = mu + 1; nu < 4; ++nu) g(mu, nu) = -f_l * l[nu];
-    g(mu, mu) = (mu == 0 ? -1.0 : 1.0) - f_l * l[mu];
-  }
-  return g;
+  const T f_t = f * l[0], f_x = f * l[1], f_y = f * l[2], f_z = f * l[3];
+  return {{-1.0 - f_t * l[0], -f_t * l[1], -f_t * l[2], -f_t * l[3], 1.0 - f_x * l[1], -f_x * l[2], -f_x * l[3],
+           1.0 - f_y * l[2], -f_y * l[3], 1.0 - f_z * l[3]}};
 }
 
-/// The spheroidal radius of a Cartesian point, and Sigma = r^2 + a^2 cos^2 theta.
+/// The square of the spheroidal radius of a Cartesian point, and Sigma = r^2 + a^2 cos^2 theta.
 template <class T>
-struct SpheroidalRadius {
-  T r;
+struct SpheroidalSquare {
+  T r_sq;
   T sigma;
 };
 
 /// r >= 0 in x + iy = (r + ia) e^{i phi} sin theta, z = r cos theta: the root of r^4 - b r^2 - a^2 z^2 = 0 with
 /// b = x^2 + y^2 + z^2 - a^2, taken without cancellation on either side of b = 0. Sigma is the root's discriminant.
 template <class T>
-[[nodiscard, gnu::always_inline]] constexpr SpheroidalRadius<T> spheroidal_radius(const Vec4<T>& x, const T& a) {
+[[nodiscard, gnu::always_inline]] constexpr SpheroidalSquare<T> spheroidal_square(const Vec4<T>& x, const T& a) {
   const T b = square(x[1]) + square(x[2]) + square(x[3]) - square(a);
   const T az = a * x[3];
   const T sigma = sqrt(square(b) + 4.0 * square(az));
   const T larger = 0.5 * (abs(b) + sigma);
-  return {sqrt(select(b < 0.0, square(az) / larger, larger)), sigma};
+  const auto inner = b < 0.0;
+  // A division that few points need, and none waits for.
+  if (any(inner)) return {select(inner, square(az) / larger, larger), sigma};
+  return {larger, sigma};
+}
+
+template <class T>
+struct SpheroidalRadius {
+  T r;
+  T sigma;
+};
+template <class T>
+[[nodiscard, gnu::always_inline]] constexpr SpheroidalRadius<T> spheroidal_radius(const Vec4<T>& x, const T& a) {
+  const auto [r_sq, sigma] = spheroidal_square(x, a);
+  return {sqrt(r_sq), sigma};
 }
 
 /// p_phi / sin theta, which is 0 on the axis for rays that have no angular momentum about it.

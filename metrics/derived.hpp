@@ -47,39 +47,46 @@ inline constexpr int dependent_coordinates = [] {
   return n;
 }();
 
+/// The dual direction of each coordinate, -1 for ignorable ones.
+template <MetricModule M>
+inline constexpr std::array<int, 4> direction_of = [] {
+  std::array<int, 4> direction{};
+  int next = 0;
+  for (std::size_t mu = 0; mu < 4; ++mu) direction[mu] = M::card.ignorable[mu] ? -1 : next++;
+  return direction;
+}();
+
 /// Hamilton's equations with derivatives by duals, one dual direction for each coordinate that is not ignorable.
 template <MetricModule M, class T>
-[[nodiscard]] constexpr PhaseState<T> derived_flow(const M& metric, const PhaseState<T>& y) {
+[[nodiscard, gnu::flatten]] constexpr PhaseState<T> derived_flow(const M& metric, const PhaseState<T>& y) {
   constexpr int n = dependent_coordinates<M>;
-  PhaseState<T> rate;
   const Vec4<T> p = y.p();
   if constexpr (n == 0) {
-    const Vec4<T> v = raise_index(metric.inverse_metric(y.x()), p);
-    for (std::size_t mu = 0; mu < 4; ++mu) rate[mu] = v[mu];
+    return {raise_index(metric.inverse_metric(y.x()), p), Vec4<T>{}};
   } else {
     using D = Dual<T, n>;
-    Vec4<D> x;
-    for (std::size_t mu = 0, k = 0; mu < 4; ++mu) {
-      x[mu] = D(y[mu]);
-      if (!M::card.ignorable[mu]) x[mu].derivative[k++] = T(1.0);
-    }
-    const SymTensor4<D> g = metric.inverse_metric(x);
-    for (std::size_t mu = 0; mu < 4; ++mu) {
-      rate[mu] = g(mu, 0).value * p[0] + g(mu, 1).value * p[1] + g(mu, 2).value * p[2] + g(mu, 3).value * p[3];
-    }
-    for (std::size_t mu = 0, k = 0; mu < 4; ++mu) {
-      if (M::card.ignorable[mu]) continue;
-      T diagonal_sum = T(0.0);
-      T mixed_sum = T(0.0);
-      for (std::size_t a = 0; a < 4; ++a) {
-        diagonal_sum = diagonal_sum + g(a, a).derivative[k] * (p[a] * p[a]);
-        for (std::size_t b = a + 1; b < 4; ++b) mixed_sum = mixed_sum + g(a, b).derivative[k] * (p[a] * p[b]);
+    const auto seeded = [&](std::size_t mu) __attribute__((always_inline)) {
+      return D(y[mu], dual::generate<T, n>([&](std::size_t k) __attribute__((always_inline)) {
+                 return T(direction_of<M>[mu] == static_cast<int>(k) ? 1.0 : 0.0);
+               }));
+    };
+    const SymTensor4<D> g = metric.inverse_metric(Vec4<D>{seeded(0), seeded(1), seeded(2), seeded(3)});
+    return PhaseState<T>::of([&](auto i) __attribute__((always_inline)) {
+      if constexpr (i < 4) {
+        return g(i, 0).value * p[0] + g(i, 1).value * p[1] + g(i, 2).value * p[2] + g(i, 3).value * p[3];
+      } else if constexpr (direction_of<M>[i - 4] < 0) {
+        return T(0.0);
+      } else {
+        constexpr auto k = static_cast<std::size_t>(direction_of<M>[i - 4]);
+        const auto term = [&](std::size_t a, std::size_t b) __attribute__((always_inline)) {
+          return g(a, b).derivative[k] * (p[a] * p[b]);
+        };
+        const T diagonal_sum = term(0, 0) + term(1, 1) + term(2, 2) + term(3, 3);
+        const T mixed_sum = term(0, 1) + term(0, 2) + term(0, 3) + term(1, 2) + term(1, 3) + term(2, 3);
+        return T(-(0.5 * diagonal_sum + mixed_sum));
       }
-      rate[4 + mu] = -(0.5 * diagonal_sum + mixed_sum);
-      ++k;
-    }
+    });
   }
-  return rate;
 }
 
 /// The flow that transport uses: the hand-written one where the module has it, the derived one otherwise.

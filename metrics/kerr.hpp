@@ -114,15 +114,18 @@ struct KerrSchild : KerrParameters {
     return kerr_schild_inverse<T>(f, l_up);
   }
 
-  /// Hamilton's equations of H = 1/2 (eta^{mu nu} p_mu p_nu - f (l.p)^2) by hand: two square roots, two divisions.
+  /// Hamilton's equations of H = 1/2 (eta^{mu nu} p_mu p_nu - f (l.p)^2) by hand: two square roots, one division.
   template <Scalar T>
   [[nodiscard]] constexpr PhaseState<T> flow(const PhaseState<T>& y) const {
     const T X = y[1], Y = y[2], Z = y[3], p_x = y[5], p_y = y[6], p_z = y[7];
     const T spin = T(Direction * a);
-    const auto [r, sigma] = spheroidal_radius(y.x(), spin);
-    const T long_axis_sq = square(r) + square(spin);
-    const T inv = 1.0 / (r * sigma * long_axis_sq);
-    const T inv_r = inv * sigma * long_axis_sq, inv_sigma = inv * r * long_axis_sq, inv_long = inv * r * sigma;
+    const auto [r_sq, sigma] = spheroidal_square(y.x(), spin);
+    const T long_axis_sq = r_sq + square(spin);
+    // Of r^2, so that the division need not wait for the root.
+    const T inv = 1.0 / (r_sq * sigma * long_axis_sq);
+    const T r = sqrt(r_sq);
+    const T inv_r = r * (inv * (sigma * long_axis_sq));
+    const T inv_sigma = inv * (r_sq * long_axis_sq), inv_long = inv * (r_sq * sigma);
 
     const T l_x = (r * X + spin * Y) * inv_long, l_y = (r * Y - spin * X) * inv_long, l_z = Z * inv_r;
     const T in_plane = l_x * p_x + l_y * p_y;

@@ -84,24 +84,21 @@ class LaneChartOf final : public LaneChart<W> {
     }
   }
 
-  [[nodiscard]] LaneProbe<W> probe(
+  [[nodiscard, gnu::flatten]] LaneProbe<W> probe(
       const PhaseState<T>& y, const PhaseState<T>& rate,
       [[maybe_unused]] const std::array<int, static_cast<std::size_t>(W)>& sheet) const override {
-    LaneProbe<W> out;
     using D = Dual<T, 1>;
-    Vec4<D> along;
-    for (std::size_t mu = 0; mu < 4; ++mu) {
-      along[mu] = D(y[mu]);
-      along[mu].derivative[0] = rate[mu];
-    }
-    const D radius = module_.radius(along);
-    out.radius = radius.value;
-    out.radial_rate = radius.derivative[0];
-    const SymTensor4<T> g = module_.inverse_metric(y.x());
-    out.null_residual =
-        select(g(0, 0) < 0.0, xpr::null_residual(g, y.p()), T(std::numeric_limits<double>::quiet_NaN()));
-    out.inside = inside_domain(module_, y.x());
-    out.stays = Mask<W>(true);
+    // Copies: what is written to memory between two uses of y may not have changed it.
+    const Vec4<T> x = y.x(), p = y.p();
+    const auto along = [&](std::size_t mu) __attribute__((always_inline)) { return D(x[mu], {rate[mu]}); };
+    const D radius = module_.radius(Vec4<D>{along(0), along(1), along(2), along(3)});
+    const SymTensor4<T> g = module_.inverse_metric(x);
+    LaneProbe<W> out{
+        .radius = radius.value,
+        .radial_rate = radius.derivative[0],
+        .null_residual = select(g(0, 0) < 0.0, xpr::null_residual(g, p), T(std::numeric_limits<double>::quiet_NaN())),
+        .inside = inside_domain(module_, x),
+        .stays = Mask<W>(true)};
     if constexpr (requires { module_.atlas_switch(PhaseState<double>{}, 1); }) {
       for (int i = 0; i < W; ++i) {
         set_lane(out.stays, i, !module_.atlas_switch(lane_of<W>(y, i), sheet[static_cast<std::size_t>(i)]));

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 
 #include "metrics/scalar/scalar.hpp"
 
@@ -44,11 +46,10 @@ template <class T>
 /// g^{mu nu} v_nu: raises (or lowers) an index. Not `apply`, which std:: has for arrays.
 template <class T>
 [[nodiscard]] constexpr Vec4<T> raise_index(const SymTensor4<T>& g, const Vec4<T>& v) {
-  Vec4<T> out{};
-  for (std::size_t mu = 0; mu < 4; ++mu) {
-    out[mu] = g(mu, 0) * v[0] + g(mu, 1) * v[1] + g(mu, 2) * v[2] + g(mu, 3) * v[3];
-  }
-  return out;
+  const auto component = [&](std::size_t mu) {
+    return g(mu, 0) * v[0] + g(mu, 1) * v[1] + g(mu, 2) * v[2] + g(mu, 3) * v[3];
+  };
+  return {component(0), component(1), component(2), component(3)};
 }
 
 /// The plain contraction a_mu b^mu.
@@ -93,11 +94,22 @@ struct PhaseState {
 
   constexpr PhaseState() = default;
   constexpr PhaseState(const Vec4<T>& x, const Vec4<T>& p) : c{x[0], x[1], x[2], x[3], p[0], p[1], p[2], p[3]} {}
+  /// Component i is f(i), i a constant, laid out flat: a loop over components keeps packs in memory, and components
+  /// zeroed before they are set cost as much as the rest of a stage.
+  template <class F>
+  [[nodiscard, gnu::always_inline]] static constexpr PhaseState of(const F& f) {
+    return PhaseState(f, std::make_index_sequence<size>{});
+  }
 
   [[nodiscard]] constexpr Vec4<T> x() const { return {c[0], c[1], c[2], c[3]}; }
   [[nodiscard]] constexpr Vec4<T> p() const { return {c[4], c[5], c[6], c[7]}; }
   [[nodiscard]] constexpr T& operator[](std::size_t i) { return c[i]; }
   [[nodiscard]] constexpr const T& operator[](std::size_t i) const { return c[i]; }
+
+ private:
+  template <class F, std::size_t... I>
+  [[gnu::always_inline]] constexpr PhaseState(const F& f, std::index_sequence<I...>)
+      : c{f(std::integral_constant<std::size_t, I>{})...} {}
 };
 
 }  // namespace xpr

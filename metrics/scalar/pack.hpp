@@ -156,6 +156,25 @@ template <class R>
   }
 }
 
+/// Whether some element of the outcome of a comparison is true.
+template <class R>
+[[gnu::always_inline]] constexpr bool some(const R& r) {
+  if constexpr (is_split<R>) {
+    return some(r.lo) || some(r.hi);
+  } else if constexpr (std::is_integral_v<R>) {
+    return r != 0;
+  } else {
+#if defined(__AVX__)
+    if (!std::is_constant_evaluated()) {
+      if constexpr (sizeof(R) == 32) return _mm256_movemask_pd(reinterpret_cast<__m256d>(r)) != 0;
+    }
+#endif
+    bool found = false;
+    for (std::size_t i = 0; i < sizeof(R) / sizeof(r[0]); ++i) found = found || r[i] != 0;
+    return found;
+  }
+}
+
 }  // namespace registers
 
 /// The outcome of comparing two Pack<W>: one truth value a lane. Combine with & | ^ !, ask with any and all, use with
@@ -199,16 +218,8 @@ struct Mask {
     }
   }
 
-  [[nodiscard]] friend constexpr bool any(const Mask& m) {
-    bool found = false;
-    for (int i = 0; i < W; ++i) found = found || lane(m, i);
-    return found;
-  }
-  [[nodiscard]] friend constexpr bool all(const Mask& m) {
-    bool kept = true;
-    for (int i = 0; i < W; ++i) kept = kept && lane(m, i);
-    return kept;
-  }
+  [[nodiscard, gnu::always_inline]] friend constexpr bool any(const Mask& m) { return registers::some(m.reg); }
+  [[nodiscard, gnu::always_inline]] friend constexpr bool all(const Mask& m) { return !any(!m); }
 
   /// a where the mask holds, else b, lane by lane.
   [[nodiscard, gnu::always_inline]] friend constexpr Pack<W> select(const Mask& m, const Pack<W>& a, const Pack<W>& b) {
