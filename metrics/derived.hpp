@@ -58,7 +58,7 @@ inline constexpr std::array<int, 4> direction_of = [] {
 
 /// Hamilton's equations with derivatives by duals, one dual direction for each coordinate that is not ignorable.
 template <MetricModule M, class T>
-[[nodiscard, gnu::flatten]] constexpr PhaseState<T> derived_flow(const M& metric, const PhaseState<T>& y) {
+[[nodiscard]] constexpr PhaseState<T> derived_flow(const M& metric, const PhaseState<T>& y) {
   constexpr int n = dependent_coordinates<M>;
   const Vec4<T> p = y.p();
   if constexpr (n == 0) {
