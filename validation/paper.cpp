@@ -135,12 +135,11 @@ ClaimSheet& ClaimSheet::ours(std::string route, double value, const Tolerance& t
   return add(new_row(claim(), route), value, tolerance);
 }
 
-ClaimSheet& ClaimSheet::traced(const TracedRoute& route, double value, const Tolerance& tolerance, std::string note) {
-  const std::string name =
-      fmt::format("{} at {:g} in {}", method_label(route.method), route.method.setting, route.chart.card().chart);
+ClaimSheet& ClaimSheet::traced(const TracedRoute& route, double value, const Tolerance& tolerance) {
+  const std::string name = fmt::format("{} at {:g} in {}{}{}", method_label(route.method), route.method.setting,
+                                       route.chart.card().chart, route.where.empty() ? "" : ", ", route.where);
   Row row = make_row(fmt::format("{}: {}", claim().quantity, name), route.chart, route.method, {});
   row.unit = claim().unit;
-  row.note = std::move(note);
   if (ended_as(row, route.end, route.wanted)) return add(std::move(row), value, tolerance);
   claim().rows.push_back(std::move(row));
   return *this;

@@ -75,6 +75,7 @@ struct TracedRoute {
   MethodAt method;
   const RayEnd& end;
   Status wanted = Status::escaped;
+  std::string where = {};  ///< tells apart routes of the same chart and method
 };
 
 /// Fills one claim; every call adds a row. Set exact() first.
@@ -94,7 +95,7 @@ class ClaimSheet {
   /// Ours, by a route that steps nothing.
   ClaimSheet& ours(std::string route, double value, const Tolerance& tolerance);
   /// Ours, from a traced ray; an error where it did not end as wanted.
-  ClaimSheet& traced(const TracedRoute& route, double value, const Tolerance& tolerance, std::string note = "");
+  ClaimSheet& traced(const TracedRoute& route, double value, const Tolerance& tolerance);
   /// Ours, from many rays (a bisection).
   ClaimSheet& from_rays(std::string route, const Spacetime& chart, const MethodAt& method, double value,
                         const Tolerance& tolerance);

@@ -36,7 +36,7 @@ def draw_series(axes, series, colours):
     elif look == "printed":
         axes.plot(x, y, "x", color=VERMILION, markersize=7, markeredgewidth=1.6, label=label, zorder=4)
     elif look == "area":
-        axes.fill(x, y, color=next(colours["area"]), linewidth=0, label=label, zorder=0)
+        axes.fill(x, y, color=next(colours["area"]), linewidth=0, label=label, zorder=1)
     else:
         raise ValueError(f"{series.name}: unknown look {look}")
 
@@ -59,7 +59,8 @@ def draw_panel(axes, panel):
     if panel.attrs["equal"]:
         axes.set_aspect("equal")
     if any(label_of(series) for series in members):
-        axes.legend()
+        # A picture of space has no free corner: its legend stands below.
+        axes.legend(**({"loc": "upper center", "bbox_to_anchor": (0.5, 0), "borderaxespad": 4.2, "ncol": 2} if panel.attrs["equal"] else {}))
 
 
 def draw(group):

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <stdexcept>
 
@@ -24,18 +25,18 @@ Integral integral(const std::function<long double(long double)>& f, long double 
 }
 
 long double zero_of(const std::function<long double(long double)>& f, long double from, long double to) {
-  long double low = from, high = to;
-  const bool rises = f(high) > 0.0L;
-  if ((f(low) > 0.0L) == rises) {
+  if (from > to) return zero_of(f, to, from);
+  const long double at_from = f(from), at_to = f(to);
+  if (at_from == 0.0L) return from;
+  if (at_to == 0.0L) return to;
+  if ((at_from > 0.0L) == (at_to > 0.0L)) {
     throw std::domain_error(
         fmt::format("no change of sign between {} and {}", static_cast<double>(from), static_cast<double>(to)));
   }
-  for (int i = 0; i < 200; ++i) {
-    const long double middle = 0.5L * (low + high);
-    if (middle == low || middle == high) break;
-    ((f(middle) > 0.0L) == rises ? high : low) = middle;
-  }
-  return 0.5L * (low + high);
+  boost::uintmax_t evaluations = 200;
+  const auto bracket = boost::math::tools::toms748_solve(
+      f, from, to, at_from, at_to, boost::math::tools::eps_tolerance<long double>(62), evaluations);
+  return 0.5L * (bracket.first + bracket.second);
 }
 
 }  // namespace xpr::papers

@@ -16,8 +16,8 @@ struct Integral {
 /// transform away.
 [[nodiscard]] Integral integral(const std::function<long double(long double)>& f, long double from, long double to);
 
-/// A zero of f between two points where its signs differ, by bisection to neighbouring long doubles. Throws
-/// std::domain_error where they do not differ.
+/// A zero of f between two points where its signs differ, by Alefeld, Potra and Shi's bracketing method to two units
+/// of long double. Throws std::domain_error where they do not differ.
 [[nodiscard]] long double zero_of(const std::function<long double(long double)>& f, long double from, long double to);
 
 }  // namespace xpr::papers
