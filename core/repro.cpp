@@ -1,9 +1,6 @@
 #include "core/repro.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,6 +9,7 @@
 #include "core/io/hash.hpp"
 #include "core/io/ray_table.hpp"
 #include "core/transport.hpp"
+#include "core/workers.hpp"
 
 namespace xpr {
 namespace {
@@ -79,13 +77,12 @@ std::vector<Ray> rays_of(const Transport& transport, int count) {
   return rays;
 }
 
-void trace_subject(const Subject& subject, int count, int lanes, CanonicalHash& hash) {
+void trace_subject(const Subject& subject, int count, Workers& workers, int lanes, CanonicalHash& hash) {
   const Transport transport = transport_of(subject);
   const std::vector<Ray> rays = rays_of(transport, count);
   std::vector<TracedRay> ends(rays.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), 64), [&](const auto& range) {
-    transport.trace(std::span(rays).subspan(range.begin(), range.size()), lanes,
-                    std::span(ends).subspan(range.begin(), range.size()));
+  workers.for_blocks(0, rays.size(), 64, [&](std::size_t first, std::size_t last) {
+    transport.trace(std::span(rays).subspan(first, last - first), lanes, std::span(ends).subspan(first, last - first));
   });
   add_to_hash(hash, traced_ray_schema(transport.chart().card()), block_of(ends));
 }
@@ -108,13 +105,13 @@ std::vector<ReproRun> run_repro(const ReproSettings& settings) {
   const auto all = static_cast<std::int64_t>(settings.threads.size() * settings.lanes.size() * subjects().size());
   std::int64_t done = 0;
   for (const int threads : settings.threads) {
-    tbb::task_arena arena(threads);
+    Workers workers(threads);
     for (const int lanes : settings.lanes) {
       const auto begin = std::chrono::steady_clock::now();
       CanonicalHash hash;
       for (const Subject& subject : subjects()) {
         if (settings.interrupted && settings.interrupted()) throw Interrupted("interrupted");
-        arena.execute([&] { trace_subject(subject, settings.rays, lanes, hash); });
+        trace_subject(subject, settings.rays, workers, lanes, hash);
         if (settings.progress) settings.progress(++done, all);
       }
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;

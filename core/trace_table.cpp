@@ -1,14 +1,12 @@
 #include "core/trace_table.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <vector>
 
 #include "core/io/errors.hpp"
 #include "core/io/ray_table.hpp"
+#include "core/workers.hpp"
 #include "integrators/batch_tracer.hpp"
 
 namespace xpr {
@@ -74,7 +72,7 @@ std::int64_t check_rays(const std::filesystem::path& path, const Transport& tran
 TraceTableResult trace_table(const Transport& transport, TableReader& reader, TableWriter& writer, std::int64_t rays,
                              const TraceTableSettings& settings) {
   const TableSchema schema = traced_ray_schema(transport.chart().card());
-  tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
+  Workers workers(settings.threads);
   const int lanes = settings.lanes > 0 ? settings.lanes : best_lanes();
   CanonicalHash hash;
   TraceTableResult result;
@@ -84,12 +82,10 @@ TraceTableResult trace_table(const Transport& transport, TableReader& reader, Ta
       for (Ray& ray : starts) ray = transport.renormalised(ray);
     }
     std::vector<TracedRay> ends(starts.size());
-    arena.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, starts.size(), grain), [&](const auto& range) {
-        check_interrupted(settings);
-        transport.trace(std::span(starts).subspan(range.begin(), range.size()), lanes,
-                        std::span(ends).subspan(range.begin(), range.size()));
-      });
+    workers.for_blocks(0, starts.size(), grain, [&](std::size_t first, std::size_t last) {
+      check_interrupted(settings);
+      transport.trace(std::span(starts).subspan(first, last - first), lanes,
+                      std::span(ends).subspan(first, last - first));
     });
     check_interrupted(settings);
     const TableBlock out = block_of(ends);

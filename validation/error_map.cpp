@@ -1,9 +1,6 @@
 #include "validation/error_map.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -16,6 +13,7 @@
 #include "core/io/errors.hpp"
 #include "core/io/hash.hpp"
 #include "core/io/ray_table.hpp"
+#include "core/workers.hpp"
 #include "integrators/batch_tracer.hpp"
 #include "metrics/kerr_ray_exact.hpp"
 
@@ -102,16 +100,14 @@ class Mapping {
   ErrorMap run() {
     const std::size_t pixels = map_.alpha.size();
     std::vector<TracedRay> ends(pixels);
-    tbb::task_arena arena(settings_.threads > 0 ? settings_.threads : tbb::task_arena::automatic);
+    Workers workers(settings_.threads);
     // In pieces, so that progress can be told and Ctrl-C heard from one thread.
     constexpr std::size_t piece = 8192;
     for (std::size_t first = 0; first < pixels; first += piece) {
       const std::size_t last = std::min(pixels, first + piece);
-      arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, 256), [&](const auto& range) {
-          if (settings_.interrupted && settings_.interrupted()) throw Interrupted("interrupted");
-          do_pixels(range.begin(), range.end(), ends);
-        });
+      workers.for_blocks(first, last, 256, [&](std::size_t begin, std::size_t end) {
+        if (settings_.interrupted && settings_.interrupted()) throw Interrupted("interrupted");
+        do_pixels(begin, end, ends);
       });
       if (settings_.progress) {
         settings_.progress(static_cast<std::int64_t>(last), static_cast<std::int64_t>(pixels));

@@ -1,8 +1,6 @@
 #include "validation/sweep.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/workers.hpp"
 #include "metrics/scalar/elementary.hpp"
 #include "validation/convergence.hpp"
 #include "validation/kit.hpp"
@@ -152,15 +151,14 @@ std::vector<Sweep> run_sweep(const SweepRequest& request, const SweepOptions& op
   }
   std::mutex reporting;
   std::int64_t done = 0;
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  arena.execute([&] {
+  Workers(options.threads).for_blocks(0, jobs.size(), 1, [&](std::size_t first, std::size_t last) {
     // The finest points cost most: begun first, so that none is left alone at the end.
-    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+    for (std::size_t i = first; i < last; ++i) {
       if (options.stop.stop_requested()) return;
       measure(jobs[jobs.size() - 1 - i]);
       const std::scoped_lock lock(reporting);
       if (options.progress) options.progress(++done, static_cast<std::int64_t>(jobs.size()));
-    });
+    }
   });
   std::vector<Sweep> sweeps;
   for (const auto& [begin, end] : curves) {
