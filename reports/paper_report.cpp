@@ -119,7 +119,7 @@ void compose_paper(const PaperResult& result, const FigureSet& figures, const st
   chapter(page, "Printed, exact, ours", [&] { page.table(claim_table(result)); });
   if (!result.findings.empty()) {
     chapter(page, "Findings", [&] {
-      for (const Finding& finding : result.findings) page.facts({{finding.where, finding.text}});
+      for (const PaperFinding& finding : result.findings) page.facts({{finding.where, finding.text}});
     });
   }
   chapter(page, "Not checked", [&] {
@@ -158,7 +158,7 @@ void compose_overview(const PaperReportInputs& inputs, const PaperReportOutcome&
   page.table(table);
   chapter(page, "Findings", [&] {
     for (const PaperResult& result : inputs.results) {
-      for (const Finding& finding : result.findings) {
+      for (const PaperFinding& finding : result.findings) {
         page.facts({{result.info.id + ", " + finding.where, finding.text}});
       }
     }
@@ -199,7 +199,7 @@ void write_claims(Hdf5File& file, const PaperResult& result) {
   file.write(group + "/claims/exact", exact, {"see the dataset unit", "exact number"});
   file.write(group + "/claims/exact_error", error, {"see the dataset unit", "absolute error of the exact number"});
   std::vector<std::string> where, text;
-  for (const Finding& finding : result.findings) {
+  for (const PaperFinding& finding : result.findings) {
     where.push_back(finding.where);
     text.push_back(finding.text);
   }
@@ -351,7 +351,7 @@ std::string paper_text(const PaperResult& result) {
   };
   text += line([&](std::size_t k) { return table.columns[k].title; });
   for (const auto& row : table.rows) text += line([&](std::size_t k) { return row[k].text; });
-  for (const Finding& finding : result.findings)
+  for (const PaperFinding& finding : result.findings)
     text += fmt::format("\nfinding: {}: {}\n", finding.where, finding.text);
   for (const Claim& claim : result.claims) {
     for (const Row& row : claim.rows) {

@@ -41,7 +41,7 @@ struct Claim {
 };
 
 /// Where a paper, a transcription of it or a code that cites it is wrong: the statement with its proof in numbers.
-struct Finding {
+struct PaperFinding {
   std::string where;
   std::string text;
 };
@@ -49,7 +49,7 @@ struct Finding {
 struct PaperResult {
   PaperInfo info;
   std::vector<Claim> claims;
-  std::vector<Finding> findings;
+  std::vector<PaperFinding> findings;
   Figure figure;
   std::string transported;  ///< digest of the ends of all rays traced
   double seconds = 0.0;     ///< wall time: volatile
