@@ -12,9 +12,10 @@
 namespace xpr {
 
 /// A 50-digit real number; converts from double exactly and implicitly. Expression templates are off, so that
-/// `auto` and template arguments are numbers.
+/// `auto` and template arguments are numbers; its digits lie in the object, not on the heap.
 using Real50 =
-    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<50>, boost::multiprecision::et_off>;
+    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<50, boost::multiprecision::allocate_stack>,
+                                  boost::multiprecision::et_off>;
 
 template <>
 struct Constants<Real50> {

@@ -73,6 +73,13 @@ class ReferenceTest(unittest.TestCase):
                              content(os.path.join(STORED, name + ".csv")))
         self.assertIn("every digit agrees", self.run_command("--check", *names).stdout)
 
+    def test_lists_what_is_built_in_where_there_is_no_folder(self):
+        elsewhere = os.path.join(self.folder, "elsewhere")
+        os.mkdir(elsewhere)
+        built_in = subprocess.run([XPRIMERAY, "reference"], capture_output=True, text=True, check=False, cwd=elsewhere)
+        self.assertEqual(built_in.returncode, 0, built_in.stderr)
+        self.assertEqual(built_in.stdout, self.run_command().stdout)
+
     def test_bad_input_is_one_line_and_writes_nothing(self):
         self.assertIn("did you mean 'ellis_deflection'?", self.refused("ellis_deflectoin"))
         self.assertIn("did you mean 'ellis_deflection'?", self.refused("--regenerate", "--out", "new", "ellis_deflectoin"))

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "core/io/errors.hpp"
 #include "core/io/json.hpp"
 #include "core/io/reference_table.hpp"
+#include "validation/truth/stored_tables.hpp"
 #include "validation/truth/tables.hpp"
 
 namespace xpr::cli {
@@ -21,12 +23,35 @@ namespace {
 
 struct ReferenceOptions {
   std::vector<std::string> tables;
-  std::string data = "reference_data";
+  std::string data;
   std::string out;
   bool regenerate = false;
   bool check = false;
   OutputFlags output;
 };
+
+constexpr const char* folder_here = "reference_data";
+
+/// A table to be read: from a file, or the one that was built in.
+struct Source {
+  std::string name;
+  std::function<ReferenceTable()> read;
+};
+
+/// The folder that is asked for, or the one that stands here, or what was built in.
+std::vector<Source> sources(const ReferenceOptions& options) {
+  std::vector<Source> out;
+  if (options.data.empty() && !std::filesystem::is_directory(folder_here)) {
+    for (const StoredTable& table : stored_tables()) {
+      out.push_back({std::string(table.name), [name = table.name] { return stored_table(name); }});
+    }
+    return out;
+  }
+  for (const auto& file : reference_files(options.data.empty() ? folder_here : options.data)) {
+    out.push_back({file.stem().string(), [file] { return read_reference(file); }});
+  }
+  return out;
+}
 
 /// A table as the user sees it.
 struct Line {
@@ -98,7 +123,9 @@ int regenerate(const ReferenceOptions& options) {
   }
   check_names(options, known);
   catch_interrupts();
-  const std::filesystem::path folder = options.out.empty() ? options.data : options.out;
+  const std::filesystem::path folder = !options.out.empty()   ? options.out
+                                       : options.data.empty() ? folder_here
+                                                              : options.data;
   if (options.out.empty()) (void)reference_files(folder);  // it has to be there
   std::vector<std::pair<Line, std::string>> made;
   {
@@ -133,9 +160,9 @@ Line examined(const ReferenceTable& table, bool recompute, bool& digits_differ) 
 }
 
 int examine(const ReferenceOptions& options) {
-  const std::vector<std::filesystem::path> files = reference_files(options.data);
+  const std::vector<Source> tables = sources(options);
   std::vector<std::string> known;
-  for (const auto& file : files) known.push_back(file.stem().string());
+  for (const Source& table : tables) known.push_back(table.name);
   check_names(options, known);
   catch_interrupts();
   std::vector<Line> lines;
@@ -143,15 +170,15 @@ int examine(const ReferenceOptions& options) {
   bool digits_differ = false;
   {
     ProgressLine progress("reference", options.check && !options.output.quiet && !options.output.json);
-    for (const auto& file : files) {
-      progress.update(static_cast<std::int64_t>(lines.size()), static_cast<std::int64_t>(files.size()));
-      if (!chosen(options, file.stem().string())) continue;
+    for (const Source& table : tables) {
+      progress.update(static_cast<std::int64_t>(lines.size()), static_cast<std::int64_t>(tables.size()));
+      if (!chosen(options, table.name)) continue;
       if (interrupted()) throw Interrupted("");
       try {
-        lines.push_back(examined(read_reference(file), options.check, digits_differ));
+        lines.push_back(examined(table.read(), options.check, digits_differ));
       } catch (const InputError& error) {
         problems.emplace_back(error.what());
-        lines.push_back({.name = file.stem().string(), .state = "refused"});
+        lines.push_back({.name = table.name, .state = "refused"});
       }
     }
   }
@@ -176,7 +203,8 @@ Command register_reference(CLI::App& program) {
   app->add_flag("--regenerate", options->regenerate, "Compute the tables from nothing and write them");
   app->add_flag("--check", options->check,
                 "Compute the tables from nothing and compare every digit; exit 1 where one differs");
-  app->add_option("--data", options->data, "The folder of the tables")->capture_default_str();
+  app->add_option("--data", options->data,
+                  "The folder of the tables (default: reference_data here, else those built in)");
   app->add_option("--out", options->out, "With --regenerate: write there instead");
   add_output_flags(*app, options->output);
   add_example(*app,

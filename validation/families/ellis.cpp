@@ -13,6 +13,7 @@
 #include "metrics/scalar/elementary.hpp"
 #include "validation/families.hpp"
 #include "validation/kit.hpp"
+#include "validation/truth/enclosure.hpp"
 
 namespace xpr {
 
@@ -53,7 +54,7 @@ constexpr const char* diverging_fault = "ellis-diverging-lens";
 
 /// The deflection, or what a planted fault makes of it.
 ExactValue deflection_truth(const Lab& lab, double b) {
-  ExactValue truth = exact::deflection(throat, b);
+  ExactValue truth = proven(enclosure::ellis_deflection(throat, b));
   // std::comp_ellint_1 takes the modulus k = b0/b; here it gets the parameter m = k^2.
   if (lab.planted(modulus_fault)) truth.value = 2.0 * std::comp_ellint_1(square(throat / b)) - pi<double>();
   if (lab.planted(diverging_fault)) truth.value = -truth.value;
@@ -119,7 +120,7 @@ std::vector<Row> transit_rows(const Lab& lab) {
           const double stored_b = impact_parameter(*at.classical, ray.start_classical);
           const double tails = exact::swept_angle(throat, stored_b, ray.start_classical[1], far, false).value +
                                exact::swept_angle(throat, stored_b, -ray.end_classical[1], far, false).value;
-          const ExactValue truth = exact::transit_angle(throat, stored_b);
+          const ExactValue truth = proven(enclosure::ellis_transit_angle(throat, stored_b));
           grade(row, std::abs(ray.azimuth()) + tails, {truth.value, truth.error},
                 accumulated(ray.end, method.setting, condition(b)));
         }
@@ -265,13 +266,15 @@ std::vector<Case> ellis_cases() {
            "A ray with impact parameter b > b0 is deflected towards the wormhole by 2 K(b0/b) - pi.",
            "alpha = 2 K(k = b0/b) - pi > 0. Traced from l0 = max(50 b0, 2b) and back; the angles beyond both ends "
            "are added in closed form.",
-           "the complete elliptic integral of the first kind at the stored b", "NakajimaAsada2012 Perlick2004"),
+           "the complete elliptic integral of the first kind at the stored b, in ball arithmetic: its error is proven",
+           "NakajimaAsada2012 Perlick2004 Johansson2017"),
        true, deflection_rows},
       {closed_form_case(
            "ellis", "transit", "A ray with b < b0 goes through the throat and sweeps 2 (b/b0) K(b/b0).",
            "Delta phi = 2 (b/b0) K(k = b/b0) from l = -infinity to +infinity, traced from 50 b0 to -50 b0; theta and "
            "phi continue unchanged through the throat.",
-           "the complete elliptic integral of the first kind at the stored b", "ChetouaniClement1984"),
+           "the complete elliptic integral of the first kind at the stored b, in ball arithmetic: its error is proven",
+           "ChetouaniClement1984 Johansson2017"),
        true, transit_rows},
       {closed_form_case(
            "ellis", "throat", "The throat is an unstable photon sphere: b_c = b0, deviations grow as e^(t/b0).",

@@ -13,6 +13,7 @@
 #include "metrics/kerr_exact.hpp"
 #include "metrics/scalar/elementary.hpp"
 #include "validation/families/kerr.hpp"
+#include "validation/truth/enclosure.hpp"
 
 namespace xpr::kerr_family {
 
@@ -94,8 +95,21 @@ double seed_deviation(const Orbit& orbit, const MethodAt& method, double steps_p
   return (steps_per_half_orbit + 1.0) * local / (1.0 - std::exp(-gamma));
 }
 
+/// Constants and one oscillation, proven.
+SphericalOrbit orbit_truth(const Orbit& orbit) {
+  const enclosure::SphericalOrbit truth = enclosure::kerr_spherical_orbit(mass, orbit.spin, orbit.r);
+  return {.xi = proven(truth.xi),
+          .eta = proven(truth.eta),
+          .cos_squared_least = proven(truth.cos_squared_least),
+          .minus_u_minus = proven(truth.minus_u_minus),
+          .mino_period = proven(truth.mino_period),
+          .azimuth = proven(truth.azimuth),
+          .time = proven(truth.time),
+          .lyapunov_half_orbit = proven(truth.lyapunov_half_orbit)};
+}
+
 void append_hold(const Lab& lab, const Charts& at, const Orbit& orbit, const MethodAt& method, std::vector<Row>& rows) {
-  const SphericalOrbit truth = exact::spherical_orbit(mass, orbit.spin, orbit.r);
+  const SphericalOrbit truth = orbit_truth(orbit);
   const double gamma = truth.lyapunov_half_orbit.value;
   constexpr int longest = 8;
   RayEnd end;
@@ -154,7 +168,7 @@ Oscillation oscillate(const Lab& lab, const Charts& at, const Orbit& orbit, cons
 }
 
 void append_turn(const Lab& lab, const Charts& at, const Orbit& orbit, const MethodAt& method, std::vector<Row>& rows) {
-  const SphericalOrbit truth = exact::spherical_orbit(mass, orbit.spin, orbit.r);
+  const SphericalOrbit truth = orbit_truth(orbit);
   const Oscillation whole = oscillate(lab, at, orbit, truth, method);
   const bool polar = std::abs(truth.xi.value) < 1e-12;
   // A deviation in r grows by e^{2 gamma} meanwhile, and goes into phi and t with what is left of the orbit.
@@ -186,7 +200,7 @@ void append_turn(const Lab& lab, const Charts& at, const Orbit& orbit, const Met
 }
 
 void append_growth(const Lab& lab, const Charts& at, const Orbit& orbit, std::vector<Row>& rows) {
-  const SphericalOrbit truth = exact::spherical_orbit(mass, orbit.spin, orbit.r);
+  const SphericalOrbit truth = orbit_truth(orbit);
   const MethodAt method{"dop853", 1e-14};
   const double gamma = truth.lyapunov_half_orbit.value;
   constexpr double delta = 1e-4 * mass;

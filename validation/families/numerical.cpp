@@ -26,9 +26,9 @@ CaseInfo info(std::string_view name, std::string claim, std::string physics, std
 
 std::vector<Case> numerical_cases() {
   std::vector<Case> all;
-  for (const auto part :
-       {numerical::order_cases, numerical::tolerance_cases, numerical::structure_cases, numerical::long_run_cases,
-        numerical::projection_cases, numerical::event_cases, numerical::comparison_cases}) {
+  for (const auto part : {numerical::order_cases, numerical::tolerance_cases, numerical::structure_cases,
+                          numerical::long_run_cases, numerical::projection_cases, numerical::event_cases,
+                          numerical::comparison_cases, numerical::fifty_digit_cases}) {
     std::vector<Case> cases = part();
     std::move(cases.begin(), cases.end(), std::back_inserter(all));
   }

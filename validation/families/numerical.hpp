@@ -16,6 +16,7 @@ namespace xpr::numerical {
 [[nodiscard]] std::vector<Case> projection_cases();
 [[nodiscard]] std::vector<Case> event_cases();
 [[nodiscard]] std::vector<Case> comparison_cases();
+[[nodiscard]] std::vector<Case> fifty_digit_cases();
 
 /// A CaseInfo of this family: "numerical/" + name, grading steppers and not metrics.
 [[nodiscard]] CaseInfo info(std::string_view name, std::string claim, std::string physics, std::string truth,

@@ -245,6 +245,9 @@ std::vector<Fault> coefficient_faults() {
                                         "numerical/order-fisheye", "heun2", 3));
   faults.push_back(wrapped<WeightsOff>("dop853-coefficient", "two of DOP853's weights off by 1e-6",
                                        "numerical/order-fisheye", "dop853", 1e-6));
+  faults.push_back(wrapped<WeightsOff>("dop853-unseen-by-its-estimate",
+                                       "two of DOP853's weights off by 1e-6, which its error estimate cannot see",
+                                       "numerical/fifty-digits", "dop853", 1e-6));
   faults.push_back(wrapped<WeightsOff>("dopri54-tenth-digit", "two of Dormand-Prince's weights off by 1e-9",
                                        "numerical/against-odeint", "dopri54", 1e-9));
   faults.push_back(wrong_gauss<3>("gl6-coefficient",

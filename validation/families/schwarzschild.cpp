@@ -10,6 +10,7 @@
 #include "metrics/schwarzschild_exact.hpp"
 #include "validation/families.hpp"
 #include "validation/kit.hpp"
+#include "validation/truth/enclosure.hpp"
 
 namespace xpr {
 
@@ -49,7 +50,7 @@ constexpr const char* half_deflection_fault = "schwarzschild-half-deflection";
 
 /// The truth of the deflection, or what a planted fault makes of it.
 ExactValue deflection_truth(const Lab& lab, double b) {
-  ExactValue truth = exact::deflection(mass, b);
+  ExactValue truth = proven(enclosure::schwarzschild_deflection(mass, b));
   if (lab.planted(modulus_fault)) truth.value = deflection_with_modulus_for_parameter(b);
   if (lab.planted(half_deflection_fault)) truth.value *= 0.5;
   return truth;
@@ -224,7 +225,7 @@ PhaseState<double> tangential(const Spacetime& areal, double r) {
 std::vector<Row> photon_sphere_rows(const Lab& lab) {
   std::vector<Row> rows;
   const Charts at = charts(lab, "kerr-schild");
-  const ExactValue truth = exact::photon_sphere_radius(mass);
+  const ExactValue truth = proven(enclosure::kerr_critical_parameters(mass, 0.0).prograde_radius);
   Row flow = make_row("r_ph from the flow of the metric", *at.classical, {}, {});
   flow.unit = "M";
   grade(flow, photon_sphere_from_flow(*at.classical), {truth.value, truth.error},
@@ -249,7 +250,7 @@ std::vector<Row> photon_sphere_rows(const Lab& lab) {
 
 std::vector<Row> critical_b_rows(const Lab& lab) {
   std::vector<Row> rows;
-  const ExactValue truth = exact::critical_impact_parameter(mass);
+  const ExactValue truth = proven(enclosure::kerr_critical_parameters(mass, 0.0).prograde_b);
   for (const std::string_view transport : {"kerr-schild", "isotropic", "areal"}) {
     const Charts at = charts(lab, transport);
     for (const MethodAt& method : {MethodAt{"dop853", 1e-13}, MethodAt{"dopri54", 1e-13}}) {
@@ -377,7 +378,8 @@ std::vector<Case> schwarzschild_cases() {
            "A ray with impact parameter b > b_c is deflected by Darwin's elliptic integral.",
            "alpha = 4 sqrt(P/Q) [K(m) - F(zeta|m)] - pi. The ray is traced from r0 = max(50 M, 2b) and back to r0; "
            "the angles beyond both ends are added in closed form, at the radii where the ray really is.",
-           "Darwin's closed form at the stored b = L/E, with its round-off bound", "Darwin1959"),
+           "Darwin's closed form at the stored b = L/E in ball arithmetic: its error is proven",
+           "Darwin1959 Johansson2017"),
        true, deflection_rows},
       {closed_form_case("schwarzschild", "capture",
                         "A ray with b < b_c falls in, sweeping the angle of the cubic with one real root.",

@@ -59,7 +59,7 @@ struct ScreenPoint {
 };
 /// By the radius of its spherical orbit; upper half.
 [[nodiscard]] ScreenPoint kerr_shadow_curve(double mass, double spin, double inclination, double r);
-/// Seen from (alpha_centre, 0), inside the shadow, under `screen_angle`, 0 < |angle| < pi, from the alpha axis.
+/// Seen from (alpha_centre, 0), inside the shadow, under `screen_angle` in [-pi, pi] from the alpha axis.
 [[nodiscard]] ScreenPoint kerr_shadow_edge(double mass, double spin, double inclination, double alpha_centre,
                                            double screen_angle);
 struct ShadowExtent {

@@ -44,7 +44,7 @@ struct Equatorial {
   Equatorial(double M, double spin, double impact_parameter)
       : mass(M),
         a(abs(Ball(spin)) / Ball(M)),
-        b((std::signbit(spin) && spin != 0.0 ? -Ball(impact_parameter) : Ball(impact_parameter)) / Ball(M)),
+        b((spin < 0.0 ? -Ball(impact_parameter) : Ball(impact_parameter)) / Ball(M)),
         d(b - a),
         roots(checked_sum(M, spin, impact_parameter), d, name(spin, impact_parameter)),
         extremal(std::abs(spin) == M) {

@@ -161,12 +161,13 @@ ScreenPoint kerr_shadow_curve(double mass, double spin, double inclination, doub
 
 ScreenPoint kerr_shadow_edge(double mass, double spin, double inclination, double alpha_centre, double screen_angle) {
   const Screen screen(mass, spin, inclination);
-  require(screen_angle != 0.0 && std::abs(screen_angle) < std::numbers::pi,
-          fmt::format("screen angle = {}, needs 0 < |angle| < pi", screen_angle));
+  require(std::abs(screen_angle) <= std::numbers::pi,
+          fmt::format("screen angle = {}, needs -pi <= angle <= pi", screen_angle));
   const Ball a = screen.hole.a, sign = screen.hole.sign, M = screen.hole.mass;
   const Ball centre = sign * Ball(alpha_centre) / M;
   require(screen.alpha(screen.low) < centre && centre < screen.alpha(screen.high),
           fmt::format("alpha_centre = {}, needs one inside the shadow", alpha_centre));
+  if (screen_angle == 0.0) return {sign * M * screen.alpha(spin < 0.0 ? screen.low : screen.high), 0};
   const Ball cosine = sign * cos(Ball(screen_angle)), sine = sin(Ball(screen_angle));
   // beta cos = (alpha - centre) sin, squared, times [a (r - 1) sin i]^2.
   const Polynomial offset = Ball(-1) * screen.constants.X + (-centre * a * screen.sine) * Polynomial{Ball(-1), Ball(1)};

@@ -13,8 +13,10 @@ const std::vector<ReferenceMaker>& reference_makers() {
   static const std::vector<ReferenceMaker> makers = {
       {"ellis_deflection", make_ellis_deflection},
       {"ellis_transit_angle", make_ellis_transit_angle},
+      {"fifty_digit_rays", make_fifty_digit_rays},
       {"kerr_critical_parameters", make_kerr_critical_parameters},
       {"kerr_equatorial_deflection", make_kerr_equatorial_deflection},
+      {"kerr_rays", make_kerr_rays},
       {"kerr_shadow_edge", make_kerr_shadow_edge},
       {"kerr_shadow_extent", make_kerr_shadow_extent},
       {"kerr_spherical_orbits", make_kerr_spherical_orbits},

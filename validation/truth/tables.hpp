@@ -38,5 +38,8 @@ struct ReferenceMaker {
 [[nodiscard]] ReferenceTable make_kerr_spherical_orbits();
 [[nodiscard]] ReferenceTable make_ellis_deflection();
 [[nodiscard]] ReferenceTable make_ellis_transit_angle();
+/// One ray a chart of the catalogue, at its default parameters.
+[[nodiscard]] ReferenceTable make_fifty_digit_rays();
+[[nodiscard]] ReferenceTable make_kerr_rays();
 
 }  // namespace xpr
