@@ -4,13 +4,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define XPR_THREAD_SANITIZER
-#endif
-#elif defined(__SANITIZE_THREAD__)
-#define XPR_THREAD_SANITIZER
-#endif
 #if defined(XPR_THREAD_SANITIZER)
 #include <sanitizer/tsan_interface.h>
 #endif
@@ -19,7 +12,8 @@ namespace xpr {
 namespace {
 
 /// A point that one thread passes before another, told to the thread sanitizer: oneTBB is not built with it, so that
-/// it sees neither where a loop forks nor where it joins. Races between blocks stay visible.
+/// it sees neither where a loop forks nor where it joins. This file is not either, as oneTBB's templates are compiled
+/// here. Races between blocks stay visible.
 class Order {
  public:
 #if defined(XPR_THREAD_SANITIZER)
