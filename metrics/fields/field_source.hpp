@@ -46,17 +46,17 @@ struct FieldSource {
   std::string name;  ///< for messages
   FieldCurve curve = FieldCurve::linear;
   FieldShape shape = FieldShape::sphere;
-  double amplitude = 1.0;                         ///< bending per length at f = 1, any sign
-  double r_inner = 0.0;                           ///< 0 <= r_inner < r_outer
-  double r_outer = 1.0;                           ///< the edge of the support
-  double a = 1.0, b = 0.0, c = 0.0;               ///< coefficients of the curve
-  std::array<double, 3> half_size{1.0, 1.0, 1.0}; ///< of a box: its faces are at |q_i| = half_size_i
-  std::vector<double> table;                      ///< of the custom curve: two to 256 values, each in [0, 1]
-  double edge_softness = 0.0;                     ///< e in [0, 1]: f smoothstep(0, e, u) (1 - smoothstep(1 - e, 1, u))
-  std::optional<double> beta_scale;               ///< multiplies the global beta, or stands for it where that is 0
-  bool invert_sign = false;                       ///< repels
-  bool absorb = false;                            ///< light that comes to r < r_inner ends there: captured
-  FieldFrame world_from_local;
+  double amplitude = 1.0;                          ///< bending per length at f = 1, any sign
+  double r_inner = 0.0;                            ///< 0 <= r_inner < r_outer
+  double r_outer = 1.0;                            ///< the edge of the support
+  double a = 1.0, b = 0.0, c = 0.0;                ///< coefficients of the curve
+  std::array<double, 3> half_size{1.0, 1.0, 1.0};  ///< of a box: its faces are at |q_i| = half_size_i
+  std::vector<double> table = {};                  ///< of the custom curve: two to 256 values, each in [0, 1]
+  double edge_softness = 0.0;                      ///< e in [0, 1]: f smoothstep(0, e, u) (1 - smoothstep(1 - e, 1, u))
+  std::optional<double> beta_scale = {};           ///< multiplies the global beta, or stands for it where that is 0
+  bool invert_sign = false;                        ///< repels
+  bool absorb = false;                             ///< light that comes to r < r_inner ends there: captured
+  FieldFrame world_from_local = {};
 };
 
 /// The gains that all sources share.
