@@ -10,6 +10,7 @@
 #include "core/io/exr.hpp"
 #include "core/io/hdf5_file.hpp"
 #include "integrators/status.hpp"
+#include "reports/origin.hpp"
 
 namespace xpr {
 namespace {
@@ -65,18 +66,7 @@ void write_h5(const ErrorMapInputs& inputs, const std::filesystem::path& path) {
   file.set_attribute("/map", "rows", std::int64_t{map.rows});
   file.set_attribute("/map", "order", "row by row from the lower left");
   file.set_attribute("/map", "critical_condition", critical_condition);
-  file.make_group("/provenance");
-  const Provenance& from = inputs.provenance;
-  file.set_attribute("/provenance", "version", from.version);
-  file.set_attribute("/provenance", "commit", from.commit + (from.dirty ? " with changes that are not committed" : ""));
-  file.set_attribute("/provenance", "compiler", from.compiler);
-  file.set_attribute("/provenance", "command", inputs.command);
-  file.set_attribute("/provenance", "configuration", inputs.configuration.dump(2));
-  file.set_attribute("/provenance", "rays_hash", map.rays_hash);
-  file.make_group("/volatile");
-  file.set_attribute("/volatile", "date", from.date);
-  file.set_attribute("/volatile", "cpu", from.cpu);
-  file.set_attribute("/volatile", "flags", from.flags);
+  write_origin(file, {inputs.provenance, inputs.command, inputs.configuration, {{"rays_hash", map.rays_hash}}});
   file.set_attribute("/volatile", "seconds", inputs.seconds);
   file.close();
 }

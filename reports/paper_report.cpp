@@ -14,6 +14,7 @@
 #include "reports/digest.hpp"
 #include "reports/junit.hpp"
 #include "reports/meaningful.hpp"
+#include "reports/origin.hpp"
 #include "reports/page.hpp"
 #include "reports/report.hpp"
 #include "reports/text.hpp"
@@ -246,19 +247,10 @@ void write_h5(const PaperReportInputs& inputs, const SuiteResult& suite, const H
     write_claims(file, result);
     write_figure(file, result);
   }
-  file.make_group("/provenance");
-  const Provenance& from = inputs.provenance;
-  file.set_attribute("/provenance", "version", from.version);
-  file.set_attribute("/provenance", "commit", from.commit + (from.dirty ? " with changes that are not committed" : ""));
-  file.set_attribute("/provenance", "compiler", from.compiler);
-  file.set_attribute("/provenance", "command", inputs.command);
-  file.set_attribute("/provenance", "configuration", inputs.configuration.dump(2));
-  file.set_attribute("/provenance", "report_hash", found.report);
-  file.set_attribute("/provenance", "rays_hash", found.rays);
-  file.make_group("/volatile");
-  file.set_attribute("/volatile", "date", from.date);
-  file.set_attribute("/volatile", "cpu", from.cpu);
-  file.set_attribute("/volatile", "flags", from.flags);
+  write_origin(file, {inputs.provenance,
+                      inputs.command,
+                      inputs.configuration,
+                      {{"report_hash", found.report}, {"rays_hash", found.rays}}});
   file.set_attribute("/volatile", "seconds", inputs.seconds);
   write_datasets(file, timing_datasets(suite));
   file.close();

@@ -6,6 +6,7 @@
 #include "core/io/hdf5_file.hpp"
 #include "reports/contents.hpp"
 #include "reports/junit.hpp"
+#include "reports/origin.hpp"
 #include "reports/page.hpp"
 #include "reports/summary_json.hpp"
 
@@ -15,39 +16,17 @@ namespace {
 // A directory that holds this file is an earlier report, and may be replaced.
 constexpr const char* marker = "report.h5";
 
-Facts provenance_facts(const Provenance& from) {
-  return {{"version", from.version},
-          {"commit", from.commit + (from.dirty ? " with changes that are not committed" : "")},
-          {"compiler", from.compiler},
-          {"build_type", from.build_type},
-          {"hdf5", from.hdf5}};
-}
-
-Facts volatile_facts(const ReportInputs& inputs) {
-  const Provenance& from = inputs.provenance;
-  Facts facts = {{"date", from.date}, {"cpu", from.cpu}, {"isa", from.isa}, {"flags", from.flags}};
-  facts.insert(facts.end(), inputs.circumstances.begin(), inputs.circumstances.end());
-  return facts;
-}
-
-std::string configuration_text(const Json& configuration) {
-  return configuration.dump(2, ' ', false, Json::error_handler_t::replace);
-}
-
 void write_h5(const ReportInputs& inputs, const Hashes& found, const std::filesystem::path& path) {
   Hdf5File file = Hdf5File::create(path);
   file.set_attribute("/", "schema", "xprimeray-report");
   file.set_attribute("/", "schema_version", report_schema_version);
   file.set_attribute("/", "suite", inputs.suite.suite);
   write_datasets(file, result_datasets(inputs.suite));
-  file.make_group("/provenance");
-  for (const auto& [name, text] : provenance_facts(inputs.provenance)) file.set_attribute("/provenance", name, text);
-  file.set_attribute("/provenance", "configuration", configuration_text(inputs.configuration));
-  file.set_attribute("/provenance", "command", inputs.command);
-  file.set_attribute("/provenance", "report_hash", found.report);
-  file.set_attribute("/provenance", "rays_hash", found.rays);
-  file.make_group("/volatile");
-  for (const auto& [name, text] : volatile_facts(inputs)) file.set_attribute("/volatile", name, text);
+  write_origin(file, {inputs.provenance,
+                      inputs.command,
+                      inputs.configuration,
+                      {{"report_hash", found.report}, {"rays_hash", found.rays}}});
+  for (const auto& [name, text] : inputs.circumstances) file.set_attribute("/volatile", name, text);
   write_datasets(file, timing_datasets(inputs.suite));
   file.close();
 }
@@ -72,8 +51,9 @@ ReportOutcome write_report(const ReportInputs& inputs, const std::filesystem::pa
                     .command = inputs.command,
                     .configuration = configuration_text(inputs.configuration),
                     .provenance = provenance_facts(inputs.provenance)};
-  const Facts changing = volatile_facts(inputs);
-  contents.provenance.insert(contents.provenance.end(), changing.begin(), changing.end());
+  for (const Facts& changing : {volatile_facts(inputs.provenance), inputs.circumstances}) {
+    contents.provenance.insert(contents.provenance.end(), changing.begin(), changing.end());
+  }
   write_h5(inputs, contents.hashes, out.path() / "report.h5");
   contents.figures = draw_figures(inputs.figure_tools, out.path());
   write_file(out.path() / "report.md", laid_out(contents, make_markdown_page()));

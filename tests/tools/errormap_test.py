@@ -6,33 +6,17 @@ Usage: errormap_test.py PATH_OF_XPRIMERAY [unittest arguments]
 
 import json
 import os
-import subprocess
-import sys
-import tempfile
 import unittest
 
 import h5py
 import numpy
 
-XPRIMERAY = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else ""
+from command_case import CommandCase
 
 
-class ErrorMapTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="xprimeray-errormap-")
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def run_command(self, *arguments):
-        return subprocess.run([XPRIMERAY, *arguments], capture_output=True, text=True, check=False, cwd=self.folder)
-
-    def refused(self, *arguments, code=2):
-        run = self.run_command("errormap", "--out", "map", *arguments)
-        self.assertEqual(run.returncode, code, run.stderr)
-        self.assertEqual(run.stdout, "")
-        self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
-        self.assertEqual(os.listdir(self.folder), [])
-        return run.stderr
+class ErrorMapTest(CommandCase):
+    def map_refused(self, *arguments, code=2):
+        return self.refused("errormap", "--out", "map", *arguments, code=code)
 
     def test_writes_numbers_channels_figure_and_page(self):
         run = self.run_command("errormap", "--set", "a=0.9", "--pixels", "20x16", "--tol", "1e-8", "--out", "map")
@@ -66,19 +50,19 @@ class ErrorMapTest(unittest.TestCase):
         self.assertEqual(json.loads(again.stdout)["pixels"], 16)
 
     def test_says_what_an_observer_and_a_screen_have_to_be(self):
-        self.assertIn("ergosphere", self.refused("--set", "a=0.9", "--observer", "r=1.9,inclination=90deg"))
-        self.assertIn("inside the horizon", self.refused("--set", "a=0.9", "--observer", "r=1.2,inclination=60deg"))
-        self.assertIn("axis", self.refused("--observer", "r=100,inclination=0deg"))
-        self.assertIn("needs a number with its unit", self.refused("--observer", "r=100,inclination=60"))
-        self.assertIn("did you mean 'inclination'", self.refused("--observer", "r=100,inclinaton=60deg"))
-        self.assertIn("needs columns x rows", self.refused("--pixels", "0x16"))
-        self.assertIn("needs columns x rows", self.refused("--pixels", "16"))
-        self.assertIn("16777216 pixels", self.refused("--pixels", "8192x4096"))
-        self.assertIn("half-width 0", self.refused("--screen", "0"))
-        self.assertIn("kerr and schwarzschild", self.refused("--metric", "ellis"))
-        self.assertIn("spin a = 1.2", self.refused("--set", "a=1.2"))
-        self.assertIn("--lanes is 3", self.refused("--lanes", "3"))
-        self.assertIn("dop853", self.refused("--method", "dop835"))
+        self.assertIn("ergosphere", self.map_refused("--set", "a=0.9", "--observer", "r=1.9,inclination=90deg"))
+        self.assertIn("inside the horizon", self.map_refused("--set", "a=0.9", "--observer", "r=1.2,inclination=60deg"))
+        self.assertIn("axis", self.map_refused("--observer", "r=100,inclination=0deg"))
+        self.assertIn("needs a number with its unit", self.map_refused("--observer", "r=100,inclination=60"))
+        self.assertIn("did you mean 'inclination'", self.map_refused("--observer", "r=100,inclinaton=60deg"))
+        self.assertIn("needs columns x rows", self.map_refused("--pixels", "0x16"))
+        self.assertIn("needs columns x rows", self.map_refused("--pixels", "16"))
+        self.assertIn("16777216 pixels", self.map_refused("--pixels", "8192x4096"))
+        self.assertIn("half-width 0", self.map_refused("--screen", "0"))
+        self.assertIn("kerr and schwarzschild", self.map_refused("--metric", "ellis"))
+        self.assertIn("spin a = 1.2", self.map_refused("--set", "a=1.2"))
+        self.assertIn("--lanes is 3", self.map_refused("--lanes", "3"))
+        self.assertIn("dop853", self.map_refused("--method", "dop835"))
 
     def test_repro_finds_one_hash(self):
         run = self.run_command("repro", "--rays", "16", "--json", "--threads", "2")
@@ -89,4 +73,4 @@ class ErrorMapTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
+    unittest.main()

@@ -6,32 +6,15 @@ Usage: paper_test.py PATH_OF_XPRIMERAY [unittest arguments]
 
 import json
 import os
-import subprocess
-import sys
-import tempfile
 import unittest
 
 import h5py
 
-XPRIMERAY = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else ""
+from command_case import CommandCase
 
 
-class PaperTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="xprimeray-paper-")
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def run_command(self, *arguments):
-        return subprocess.run([XPRIMERAY, "paper", *arguments], capture_output=True, text=True, check=False,
-                              cwd=self.folder)
-
-    def refused(self, *arguments):
-        run = self.run_command(*arguments)
-        self.assertEqual(run.returncode, 2, run.stderr)
-        self.assertEqual(run.stdout, "")
-        self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
-        return run.stderr
+class PaperTest(CommandCase):
+    prefix = ("paper",)
 
     def test_lists_the_papers(self):
         run = self.run_command("--list")
@@ -99,4 +82,4 @@ class PaperTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
+    unittest.main()

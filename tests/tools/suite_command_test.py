@@ -8,42 +8,16 @@ import json
 import os
 import signal
 import subprocess
-import sys
-import tempfile
 import unittest
 
-XPRIMERAY = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else ""
+from command_case import XPRIMERAY, CommandCase
+
 REPORT = ["figures", "junit.xml", "report.h5", "report.html", "report.md", "summary.json"]
 
 
-class SuiteCommandTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="xprimeray-suite-")
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def run_command(self, *arguments):
-        return subprocess.run(
-            [XPRIMERAY, *arguments], capture_output=True, text=True, timeout=300, check=False, cwd=self.folder
-        )
-
-    def succeed(self, *arguments):
-        done = self.run_command(*arguments)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        return done
-
+class SuiteCommandTest(CommandCase):
     def refuse(self, *arguments, says):
-        """One clear line, exit code 2, and nothing written."""
-        before = sorted(os.listdir(self.folder))
-        done = self.run_command(*arguments)
-        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
-        self.assertEqual(done.stdout, "")
-        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        self.assertIn(says, done.stderr)
-        self.assertEqual(sorted(os.listdir(self.folder)), before)
+        self.assertIn(says, self.refused(*arguments))
 
     def end_of(self, *arguments):
         lines = [json.loads(line) for line in self.succeed(*arguments, "--json").stdout.splitlines()]
@@ -136,4 +110,4 @@ class SuiteCommandTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
+    unittest.main()

@@ -3,13 +3,13 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "metrics/scalar/elementary.hpp"
 #include "metrics/schwarzschild_exact.hpp"
 #include "validation/families.hpp"
 #include "validation/kit.hpp"
+#include "validation/schwarzschild_rays.hpp"
 #include "validation/truth/enclosure.hpp"
 
 namespace xpr {
@@ -19,21 +19,8 @@ namespace {
 namespace exact = schwarzschild_exact;
 
 constexpr double mass = 1.0;
-constexpr double far = std::numeric_limits<double>::infinity();
 
 const double critical_b = exact::critical_impact_parameter(mass).value;
-
-Charts charts(const Lab& lab, std::string_view transport) {
-  const std::array<NamedValue, 1> values{{{"M", mass}}};
-  return charts(lab, "schwarzschild", "areal", transport, values);
-}
-
-/// |b d alpha / d b|, by a central difference of the closed form: how much a relative error of b is amplified.
-double deflection_condition(double b) {
-  const double h = 1e-3 * (b - critical_b);
-  const double slope = (exact::deflection(mass, b + h).value - exact::deflection(mass, b - h).value) / (2.0 * h);
-  return 1.0 + b * std::abs(slope);
-}
 
 /// Darwin's formula as someone writes it whose library wants the modulus k where the paper's tables give m = k^2.
 double deflection_with_modulus_for_parameter(double b) {
@@ -54,25 +41,6 @@ ExactValue deflection_truth(const Lab& lab, double b) {
   if (lab.planted(modulus_fault)) truth.value = deflection_with_modulus_for_parameter(b);
   if (lab.planted(half_deflection_fault)) truth.value *= 0.5;
   return truth;
-}
-
-/// A ray from r0 inward and back out to r0.
-SweptRay there_and_back(const Lab& lab, const Charts& at, double b, double r0, const MethodAt& method,
-                        bool grade_time = false) {
-  TraceSettings settings = trace_settings(method, mass);
-  settings.r_max = r0;
-  settings.r_min = 2.01 * mass;
-  settings.grade_time = grade_time;
-  return trace_swept(lab, *at.classical, *at.transport, equatorial_light(*at.classical, *at.transport, r0, b),
-                     settings);
-}
-
-/// alpha = swept angle between the ray's own ends + the closed-form tails beyond them - pi.
-double deflection_of(const SweptRay& ray, double b) {
-  const double r1 = ray.start_classical[1];
-  const double r2 = ray.end_classical[1];
-  return std::abs(ray.azimuth()) + exact::swept_angle(mass, b, r1, far, false).value +
-         exact::swept_angle(mass, b, r2, far, false).value - pi<double>();
 }
 
 constexpr double promised = 1e-12;
@@ -103,7 +71,7 @@ std::vector<Row> deflection_rows(const Lab& lab) {
       lab.full() ? std::vector<std::string_view>{"kerr-schild", "kerr-schild-outgoing", "isotropic", "areal"}
                  : std::vector<std::string_view>{"kerr-schild", "isotropic"};
   for (const std::string_view transport : transports) {
-    const Charts at = charts(lab, transport);
+    const Charts at = schwarzschild_charts(lab, transport);
     for (const double ratio : {1.0001, 1.001, 1.01, 1.1, 1.5, 3.0, 20.0, 200.0, 1924.5}) {
       for (const MethodAt& method : deflection_methods(lab)) {
         if (method.method == "odeint:rkf78" && ratio > 100.0) {
@@ -119,7 +87,7 @@ std::vector<Row> deflection_rows(const Lab& lab) {
         if (ended_as(row, ray.end, Status::escaped)) {
           const double stored_b = impact_parameter(*at.classical, ray.start_classical);
           const ExactValue truth = deflection_truth(lab, stored_b);
-          grade(row, deflection_of(ray, stored_b), {truth.value, truth.error},
+          grade(row, traced_deflection(ray, stored_b), {truth.value, truth.error},
                 deflection_tolerance(ray.end, method, ratio, deflection_condition(b), truth.value));
         }
         rows.push_back(std::move(row));
@@ -131,7 +99,7 @@ std::vector<Row> deflection_rows(const Lab& lab) {
 
 std::vector<Row> capture_rows(const Lab& lab) {
   std::vector<Row> rows;
-  const Charts at = charts(lab, "kerr-schild");
+  const Charts at = schwarzschild_charts(lab, "kerr-schild");
   for (const double ratio : {0.1, 0.5, 0.9, 0.99, 0.999}) {
     for (const MethodAt& method : {MethodAt{"dop853", 1e-9}, MethodAt{"dop853", 1e-14}, MethodAt{"dopri54", 1e-11}}) {
       const double b = ratio * critical_b;
@@ -154,7 +122,7 @@ std::vector<Row> capture_rows(const Lab& lab) {
 
 std::vector<Row> weak_field_rows(const Lab& lab) {
   std::vector<Row> rows;
-  const Charts at = charts(lab, "kerr-schild");
+  const Charts at = schwarzschild_charts(lab, "kerr-schild");
   struct Member {
     double b;
     int order;
@@ -168,7 +136,7 @@ std::vector<Row> weak_field_rows(const Lab& lab) {
     if (ended_as(row, ray.end, Status::escaped)) {
       const double stored_b = impact_parameter(*at.classical, ray.start_classical);
       const ExactValue series = exact::weak_field_series(mass, stored_b, member.order);
-      grade(row, deflection_of(ray, stored_b), {series.value, series.error},
+      grade(row, traced_deflection(ray, stored_b), {series.value, series.error},
             {promised, "promised: 1e-12 rad; the terms left out stay below a tenth of it"});
     }
     rows.push_back(std::move(row));
@@ -178,7 +146,7 @@ std::vector<Row> weak_field_rows(const Lab& lab) {
 
 std::vector<Row> strong_field_rows(const Lab& lab) {
   std::vector<Row> rows;
-  const Charts at = charts(lab, "kerr-schild");
+  const Charts at = schwarzschild_charts(lab, "kerr-schild");
   for (const double excess : {1e-3, 1e-4, 1e-5, 1e-6}) {
     const MethodAt method{"dop853", 1e-14};
     const double b = (1.0 + excess) * critical_b;
@@ -189,7 +157,7 @@ std::vector<Row> strong_field_rows(const Lab& lab) {
     if (ended_as(row, ray.end, Status::escaped)) {
       const double stored_b = impact_parameter(*at.classical, ray.start_classical);
       const double left_out = 2.0 * exact::strong_field_logarithm(mass, stored_b).error;
-      const double traced = deflection_of(ray, stored_b) + std::log(stored_b / critical_b - 1.0);
+      const double traced = traced_deflection(ray, stored_b) + std::log(stored_b / critical_b - 1.0);
       grade(row, traced, {std::log(216.0 * (7.0 - 4.0 * std::sqrt(3.0))) - pi<double>(), 1e-15},
             {left_out + accumulated(ray.end, method.setting, deflection_condition(b)).value,
              "twice what the logarithm leaves out of the deflection, and the traced ray's accumulated error"});
@@ -224,7 +192,7 @@ PhaseState<double> tangential(const Spacetime& areal, double r) {
 
 std::vector<Row> photon_sphere_rows(const Lab& lab) {
   std::vector<Row> rows;
-  const Charts at = charts(lab, "kerr-schild");
+  const Charts at = schwarzschild_charts(lab, "kerr-schild");
   const ExactValue truth = proven(enclosure::kerr_critical_parameters(mass, 0.0).prograde_radius);
   Row flow = make_row("r_ph from the flow of the metric", *at.classical, {}, {});
   flow.unit = "M";
@@ -252,7 +220,7 @@ std::vector<Row> critical_b_rows(const Lab& lab) {
   std::vector<Row> rows;
   const ExactValue truth = proven(enclosure::kerr_critical_parameters(mass, 0.0).prograde_b);
   for (const std::string_view transport : {"kerr-schild", "isotropic", "areal"}) {
-    const Charts at = charts(lab, transport);
+    const Charts at = schwarzschild_charts(lab, transport);
     for (const MethodAt& method : {MethodAt{"dop853", 1e-13}, MethodAt{"dopri54", 1e-13}}) {
       if (!lab.full() && method.method != "dop853") continue;
       Row row = make_row(fmt::format("b_c by bisection, {}, {} {:g}", transport, method_label(method), method.setting),
@@ -274,7 +242,7 @@ std::vector<Row> critical_b_rows(const Lab& lab) {
 
 std::vector<Row> lyapunov_rows(const Lab& lab) {
   std::vector<Row> rows;
-  const Charts at = charts(lab, "kerr-schild");
+  const Charts at = schwarzschild_charts(lab, "kerr-schild");
   const ExactValue truth = exact::lyapunov_exponent_per_half_orbit();
   const std::array<Event, 1> half_orbit{{{.name = "half orbit",
                                           .g = [](const Spacetime&, const PhaseState<double>& y, int) { return y[2]; },
@@ -311,7 +279,7 @@ std::vector<Row> time_rows(const Lab& lab) {
     double r0;
   };
   for (const std::string_view transport : {"kerr-schild", "areal", "isotropic"}) {
-    const Charts at = charts(lab, transport);
+    const Charts at = schwarzschild_charts(lab, transport);
     for (const Member& member : {Member{5.25, 50.0}, Member{8.0, 100.0}, Member{11.0, 1000.0}, Member{100.0, 1e4}}) {
       for (const MethodAt& method : {MethodAt{"dop853", 1e-9}, MethodAt{"dop853", 1e-14}}) {
         Row row = make_row(fmt::format("b = {:g} M from {:g} M and back, {}, {} {:g}", member.b, member.r0, transport,
@@ -345,7 +313,7 @@ std::vector<Row> chart_rows(const Lab& lab) {
                                Member{"past the pole within 1e-6", 1.3, 1e-6, -7.0}}) {
     for (const std::string_view transport : {"kerr-schild", "kerr-schild-outgoing", "isotropic", "areal"}) {
       if (transport == "areal" && member.L < 1.0) continue;  // the polar chart has no way over its own axis
-      const Charts at = charts(lab, transport);
+      const Charts at = schwarzschild_charts(lab, transport);
       const MethodAt method{"dop853", 1e-13};
       Row row = make_row(fmt::format("{}, {}", member.name, transport), *at.transport, method,
                          {{"L", member.L, "M"}, {"p_theta", member.p_theta, "M"}});

@@ -55,7 +55,7 @@ void add_constants(PaperSheet& sheet) {
   bbar.ours("Bozza's regular part by quadrature", regular.value,
             {1e-14 + regular.error, "round-off of three terms and the quadrature's error"});
   for (const Route& route : schwarzschild_routes()) {
-    const Charts at = schwarzschild(lab, route.chart);
+    const Charts at = schwarzschild_charts(lab, route.chart);
     constexpr double x[] = {1e-4, 1e-5};
     double rest[2];
     double traced_error = 0.0;
@@ -131,7 +131,7 @@ void draw(PaperSheet& sheet) {
     off.x.push_back(x), off.y.push_back(std::abs(sdl - alpha));
     foretold.x.push_back(x), foretold.y.push_back(x * std::abs(std::log(x)));
   }
-  const Charts at = schwarzschild(sheet.lab(), "kerr-schild");
+  const Charts at = schwarzschild_charts(sheet.lab(), "kerr-schild");
   for (const double x : log_steps(1e-6, 0.3, 12)) {
     const double b = critical_b * (1.0 + x);
     const double alpha = traced_deflection(there_and_back(sheet.lab(), at, b, 50.0, {"dop853", 1e-13}), b);

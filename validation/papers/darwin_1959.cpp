@@ -124,7 +124,7 @@ void draw(PaperSheet& sheet) {
   Series printed{"Table 3 as transcribed", Look::printed, {}, {}};
   Series traced{"traced, dop853 in Kerr-Schild", Look::dots, {}, {}};
   Series off_by{"printed less exact", Look::printed, {}, {}};
-  const Charts at = schwarzschild(sheet.lab(), "kerr-schild");
+  const Charts at = schwarzschild_charts(sheet.lab(), "kerr-schild");
   for (const Line& line : lines) {
     const double b = std::sqrt(line.P * line.P * line.P / (line.P - 2.0));
     printed.x.push_back(std::stod(line.b));

@@ -92,7 +92,7 @@ void add_edges(PaperSheet& sheet) {
     claim.ours("quadrature of n", edge.b + (edge.n - turns(lab, edge.b)) / goal_slope, round_off);
     claim.ours("Carlson's integrals solved for n", solved(turns_in_closed_form), round_off);
     for (const MethodAt& method : {MethodAt{"dop853", 1e-14}, MethodAt{"dopri54", 1e-13}}) {
-      const Charts at = schwarzschild(lab, "kerr-schild");
+      const Charts at = schwarzschild_charts(lab, "kerr-schild");
       const SweptRay ray = ray_of(lab, at, edge.b, method);
       // One step of Newton's from the exact edge: what the traced ray's own n makes of b.
       const double b = edge.b + (edge.n - traced_turns(ray, edge.b)) / goal_slope;
@@ -112,7 +112,7 @@ void draw(PaperSheet& sheet) {
     if (std::abs(b - critical_b) < 1e-4) continue;
     n_of_b.x.push_back(b), n_of_b.y.push_back(turns_in_closed_form(b));
   }
-  const Charts at = schwarzschild(sheet.lab(), "kerr-schild");
+  const Charts at = schwarzschild_charts(sheet.lab(), "kerr-schild");
   // Direct, lensed and photon-ring light, each a series with gaps between its rays.
   std::array<Series, 3> rays{Series{"n < 3/4: direct", Look::line, {}, {}},
                              Series{"3/4 < n < 5/4: lensing ring", Look::line, {}, {}},

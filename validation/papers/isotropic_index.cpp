@@ -57,7 +57,7 @@ double optical_path(long double b, long double rho_end) {
 }
 
 void add_index(PaperSheet& sheet) {
-  const Charts at = schwarzschild(sheet.lab(), "isotropic");
+  const Charts at = schwarzschild_charts(sheet.lab(), "isotropic");
   struct Member {
     double rho, n;
   };
@@ -97,7 +97,7 @@ void run(PaperSheet& sheet) {
   const double rho_end = exact::isotropic_from_areal(1.0, 100.0).value;
   path.ours("int n dl in the medium", optical_path(8.0L, rho_end), {1e-10, "as above, over a path of 100 M"});
   for (const Route& route : {Route{"isotropic", {"dop853", 1e-14}}, Route{"areal", {"dopri54", 1e-12}}}) {
-    const Charts at = schwarzschild(lab, route.chart);
+    const Charts at = schwarzschild_charts(lab, route.chart);
     const SweptRay ray = there_and_back(lab, at, 8.0, 100.0, route.method, true);
     deflection.traced({*at.transport, route.method, ray.end}, traced_deflection(ray, 8.0),
                       accumulated(ray.end, route.method.setting, deflection_condition(8.0)));

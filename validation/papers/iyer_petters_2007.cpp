@@ -129,7 +129,7 @@ void draw(PaperSheet& sheet) {
     }
   }
   Series traced{"traced", Look::dots, {}, {}};
-  const Charts at = schwarzschild(sheet.lab(), "kerr-schild");
+  const Charts at = schwarzschild_charts(sheet.lab(), "kerr-schild");
   for (const double x : even_steps(0.05, 0.95, 13)) {
     const double b = critical_b / (1.0 - x);
     traced.x.push_back(x);

@@ -123,7 +123,7 @@ void add_image(PaperSheet& sheet, const Line& line, bool ghost) {
   b.ours("quadrature of the orbit equation", value + (swept - quadrature_sweep(value, r, image.via_periapsis)) / slope,
          digits);
   for (const Route& route : schwarzschild_routes()) {
-    const Charts at = schwarzschild(lab, route.chart);
+    const Charts at = schwarzschild_charts(lab, route.chart);
     const SweptRay ray = traced_from(lab, at, {value, image.via_periapsis}, r, route.method);
     const double traced =
         std::abs(ray.azimuth()) + exact::swept_angle(1.0, value, ray.end_classical[1], far, false).value;
@@ -137,7 +137,7 @@ void add_image(PaperSheet& sheet, const Line& line, bool ghost) {
   z.exact({ghost ? line.z_ghost : line.z, 5e-13}, "mpmath, 14 digits");
   z.ours("eq. 19 with our b", redshift(lab, r, image.b, plate), digits);
   z.ours("components of the metric with our b",
-         redshift_from_metric(*schwarzschild(lab, "areal").classical, r, image.b, plate), digits);
+         redshift_from_metric(*schwarzschild_charts(lab, "areal").classical, r, image.b, plate), digits);
 }
 
 /// sn(u|m) by the descending arithmetic-geometric mean.

@@ -63,7 +63,7 @@ void run(PaperSheet& sheet) {
     const Tolerance digits{1e-10, "twenty times the digits of the evaluation"};
     claim.ours("closed form", by_formula(lab, source), digits);
     for (const Route& route : schwarzschild_routes()) {
-      const Charts at = schwarzschild(lab, route.chart);
+      const Charts at = schwarzschild_charts(lab, route.chart);
       const Emitter emitter =
           source.orbits ? circular_emitter(*at.classical, source.r) : static_emitter(*at.classical, source.r);
       // Tangential light is at its turning point: one rounding inside it, no ray exists.

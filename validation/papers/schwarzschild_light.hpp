@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "validation/paper.hpp"
+#include "validation/schwarzschild_rays.hpp"
 
 namespace xpr::papers {
 
@@ -16,19 +17,6 @@ struct Route {
 
 /// Kerr-Schild with dop853, the areal chart with dopri54: nothing in common but the tracer's frame.
 [[nodiscard]] const std::vector<Route>& schwarzschild_routes();
-
-/// The areal chart and a transport chart of M = 1.
-[[nodiscard]] Charts schwarzschild(const Lab& lab, std::string_view transport);
-
-/// A ray from r0 inward and back out to r0.
-[[nodiscard]] SweptRay there_and_back(const Lab& lab, const Charts& at, double b, double r0, const MethodAt& method,
-                                      bool grade_time = false);
-
-/// The deflection of a ray traced so, with the angles beyond both ends added in closed form.
-[[nodiscard]] double traced_deflection(const SweptRay& ray, double b);
-
-/// |b d alpha / d b| + 1: how much a relative error of b is amplified.
-[[nodiscard]] double deflection_condition(double b);
 
 /// 2 int_0^{u2} du / sqrt(1/b^2 - u^2 + 2 u^3) - pi with the turning point's root taken out: the polynomial's own
 /// quadrature, without elliptic integrals.

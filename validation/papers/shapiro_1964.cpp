@@ -46,7 +46,7 @@ Integral time_by_quadrature(long double r0, long double R) {
 void add_traced_time(ClaimSheet& claim, const Lab& lab, double r0, double R) {
   const double b = impact_parameter_of(r0);
   for (const Route& route : schwarzschild_routes()) {
-    const Charts at = schwarzschild(lab, route.chart);
+    const Charts at = schwarzschild_charts(lab, route.chart);
     const SweptRay ray = there_and_back(lab, at, b, R, route.method, true);
     claim.traced({*at.transport, route.method, ray.end}, 0.5 * (ray.end_classical[0] - ray.start_classical[0]),
                  accumulated(ray.end, route.method.setting, deflection_condition(b) * b + 2.0 * R));
@@ -62,7 +62,7 @@ void add_radial(PaperSheet& sheet) {
              static_cast<double>(integral([](long double r) { return 1.0L / (1.0L - 2.0L / r); }, 3.0L, 100.0L).value),
              tolerance);
   for (const Route& route : schwarzschild_routes()) {
-    const Charts at = schwarzschild(sheet.lab(), route.chart);
+    const Charts at = schwarzschild_charts(sheet.lab(), route.chart);
     TraceSettings settings = trace_settings(route.method);
     settings.r_min = 3.0;
     settings.grade_time = true;
@@ -105,7 +105,7 @@ void run(PaperSheet& sheet) {
     curve.x.push_back(r0), curve.y.push_back(delay(static_cast<double>(time_by_quadrature(r0, R).value), r0));
     approximate.x.push_back(r0), approximate.y.push_back(delay(first_order(lab, r0, R), r0));
   }
-  const Charts at = schwarzschild(lab, "kerr-schild");
+  const Charts at = schwarzschild_charts(lab, "kerr-schild");
   for (const double r0 : log_steps(3.2, 250.0, 11)) {
     const SweptRay ray = there_and_back(lab, at, impact_parameter_of(r0), R, {"dop853", 1e-12}, true);
     traced.x.push_back(r0), traced.y.push_back(delay(0.5 * (ray.end_classical[0] - ray.start_classical[0]), r0));

@@ -54,7 +54,7 @@ void run(PaperSheet& sheet) {
     claim.ours("exact solutions' module", exact::escape_cone_angle(1.0, at.r).value / degree, round_off);
     for (const Route& route : schwarzschild_routes()) {
       if (at.r == 3.0) continue;  // light that starts tangentially on the photon sphere stays: no fate to bisect on
-      const Charts charts = schwarzschild(lab, route.chart);
+      const Charts charts = schwarzschild_charts(lab, route.chart);
       claim.from_rays("fate of rays", *charts.transport, route.method,
                       psi_from_rays(lab, charts, route.method, at.r) / degree,
                       {1e-8, "promised: b_c below 1e-10, and degrees"});
@@ -64,7 +64,7 @@ void run(PaperSheet& sheet) {
   inside.exact({180.0 - std::asin(std::sqrt(0.864)) / degree, 3e-14}, "sin^2 psi = 27 (1 - 2/r)/r^2 = 0.864, psi > 90");
   inside.ours("arc tangent of both sides", cone_angle(lab, 2.5) / degree, round_off);
   for (const Route& route : schwarzschild_routes()) {
-    const Charts charts = schwarzschild(lab, route.chart);
+    const Charts charts = schwarzschild_charts(lab, route.chart);
     inside.from_rays("fate of rays", *charts.transport, route.method,
                      psi_from_rays(lab, charts, route.method, 2.5) / degree,
                      {1e-8, "promised: b_c below 1e-10, and degrees"});
@@ -75,7 +75,7 @@ void run(PaperSheet& sheet) {
     curve.x.push_back(r);
     curve.y.push_back(exact::escape_cone_angle(1.0, r).value / degree);
   }
-  const Charts charts = schwarzschild(lab, "kerr-schild");
+  const Charts charts = schwarzschild_charts(lab, "kerr-schild");
   for (const double r : {2.1, 2.3, 2.6, 3.3, 4.0, 6.0, 10.0, 20.0, 40.0}) {
     traced.x.push_back(r);
     traced.y.push_back(psi_from_rays(lab, charts, {"dop853", 1e-11}, r) / degree);

@@ -80,7 +80,7 @@ void add_rings(PaperSheet& sheet) {
     b.ours("quadrature solved for it", impact_parameter_of(quadrature), tight);
     for (const Route& route : schwarzschild_routes()) {
       if (ring.turns == 3) continue;  // b - b_c = 2e-8: the doubles of a ray's start hold it to 1e-8 of itself
-      const Charts at = schwarzschild(lab, route.chart);
+      const Charts at = schwarzschild_charts(lab, route.chart);
       b.from_rays("rays deflected by 2 pi n", *at.transport, route.method,
                   ring_from_rays(lab, at, route.method, alpha, ring.b + 0.1 * (ring.b - critical_b)),
                   {1e-11,
@@ -111,7 +111,7 @@ void add_abstract(PaperSheet& sheet) {
   bound.ours("closed form solved for it", static_cast<double>(periapsis_by_closed_form(lab, 1.5 * pi_)), root);
   bound.ours("quadrature solved for it", static_cast<double>(periapsis_by_quadrature(1.5 * pi_)), root);
   for (const Route& route : schwarzschild_routes()) {
-    const Charts at = schwarzschild(lab, route.chart);
+    const Charts at = schwarzschild_charts(lab, route.chart);
     const double b = ring_from_rays(lab, at, route.method, 1.5 * pi_, 5.23);
     bound.from_rays("rays deflected by 3 pi/2", *at.transport, route.method, static_cast<double>(periapsis_of(b)),
                     {1e-10, "100 local errors of 1e-12 over the slope d alpha/d P of 10"});
@@ -159,7 +159,7 @@ void draw(PaperSheet& sheet) {
     curve.y.push_back(exact::deflection_from_periapsis(1.0, 3.0 + above).value / pi_);
   }
   Series traced{"traced", Look::dots, {}, {}};
-  const Charts at = schwarzschild(sheet.lab(), "kerr-schild");
+  const Charts at = schwarzschild_charts(sheet.lab(), "kerr-schild");
   for (const double above : log_steps(1e-3, 4.0, 14)) {
     const double P = 3.0 + above, b = impact_parameter_of(P);
     traced.x.push_back(P);
