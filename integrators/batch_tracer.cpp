@@ -19,19 +19,20 @@ std::unique_ptr<Stepper> stepper_of(const Spacetime& spacetime, const TraceSetti
 /// Traces in lanes; false where this chart or method has none.
 template <int W>
 bool traced_in_lanes(const Spacetime& spacetime, std::span<const BatchRay> rays, const TraceSettings& settings,
-                     std::span<RayEnd> ends) {
+                     std::span<RayEnd> ends, PathWatch* things) {
   if (spacetime.lane_charts().of_width<W>() == nullptr || settings.stepper_factory) return false;
   std::unique_ptr<LaneKernel<W>> kernel = make_lane_kernel<W>(*stepper_of(spacetime, settings));
   if (!kernel) return false;
-  LaneBatch<W>(spacetime, settings, std::move(kernel)).trace(rays, ends);
+  LaneBatch<W>(spacetime, settings, std::move(kernel), things).trace(rays, ends);
   return true;
 }
 
 void trace_one_by_one(const Spacetime& spacetime, std::span<const BatchRay> rays, const TraceSettings& settings,
-                      std::span<RayEnd> ends) {
+                      std::span<RayEnd> ends, PathWatch* things) {
   RayTrace ray(spacetime, settings);
+  ray.look_for(things);
   for (std::size_t k = 0; k < rays.size(); ++k) {
-    const std::optional<Status> status = ray.begin(rays[k].start, rays[k].sheet, rays[k].r_max);
+    const std::optional<Status> status = ray.begin(rays[k].start, rays[k].sheet, rays[k].r_max, k);
     ends[k] = ray.end(status ? *status : ray.go_on());
   }
 }
@@ -46,7 +47,7 @@ bool runs_in_lanes(const Spacetime& spacetime, const TraceSettings& settings) {
 }
 
 void trace_rays(const Spacetime& spacetime, std::span<const BatchRay> rays, const TraceSettings& settings, int lanes,
-                std::span<RayEnd> ends) {
+                std::span<RayEnd> ends, PathWatch* things) {
   if (rays.size() != ends.size()) {
     throw std::invalid_argument(fmt::format("{} rays but room for {} ends", rays.size(), ends.size()));
   }
@@ -57,18 +58,18 @@ void trace_rays(const Spacetime& spacetime, std::span<const BatchRay> rays, cons
   const auto traced = [&] {
     switch (lanes) {
       case 1:
-        return traced_in_lanes<1>(spacetime, rays, settings, ends);
+        return traced_in_lanes<1>(spacetime, rays, settings, ends, things);
       case 2:
-        return traced_in_lanes<2>(spacetime, rays, settings, ends);
+        return traced_in_lanes<2>(spacetime, rays, settings, ends, things);
       case 4:
-        return traced_in_lanes<4>(spacetime, rays, settings, ends);
+        return traced_in_lanes<4>(spacetime, rays, settings, ends, things);
       case 8:
-        return traced_in_lanes<8>(spacetime, rays, settings, ends);
+        return traced_in_lanes<8>(spacetime, rays, settings, ends, things);
       default:
         throw std::invalid_argument(fmt::format("{} lanes, needs 1, 2, 4 or 8", lanes));
     }
   }();
-  if (!traced) trace_one_by_one(spacetime, rays, settings, ends);
+  if (!traced) trace_one_by_one(spacetime, rays, settings, ends, things);
 }
 
 }  // namespace xpr

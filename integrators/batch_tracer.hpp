@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "integrators/path_watch.hpp"
 #include "integrators/tracer.hpp"
 
 namespace xpr {
@@ -29,10 +30,11 @@ inline constexpr std::array<int, 4> lane_widths = {1, 2, 4, 8};
 /// traced one at a time.
 [[nodiscard]] bool runs_in_lanes(const Spacetime& spacetime, const TraceSettings& settings);
 
-/// Traces ray k into ends[k]. `lanes` is one of lane_widths. Throws std::invalid_argument as trace_ray does, for
+/// Traces ray k into ends[k], up to the first of the `things` that it meets, if any are given. `lanes` is one of
+/// lane_widths. Throws std::invalid_argument as trace_ray does, for
 /// other widths, spans of different lengths, and an r_max where the settings have none. One thread; from several at
 /// once on different rays.
 void trace_rays(const Spacetime& spacetime, std::span<const BatchRay> rays, const TraceSettings& settings, int lanes,
-                std::span<RayEnd> ends);
+                std::span<RayEnd> ends, PathWatch* things = nullptr);
 
 }  // namespace xpr

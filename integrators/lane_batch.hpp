@@ -8,6 +8,7 @@
 
 #include "integrators/batch_tracer.hpp"
 #include "integrators/lane_kernel.hpp"
+#include "integrators/path_watch.hpp"
 #include "integrators/ray_trace.hpp"
 #include "integrators/step_control.hpp"
 
@@ -17,7 +18,9 @@ template <int W>
 class LaneBatch {
  public:
   /// `kernel` is that of the settings' method.
-  LaneBatch(const Spacetime& spacetime, const TraceSettings& settings, std::unique_ptr<LaneKernel<W>> kernel);
+  /// `things` may be null.
+  LaneBatch(const Spacetime& spacetime, const TraceSettings& settings, std::unique_ptr<LaneKernel<W>> kernel,
+            PathWatch* things);
 
   void trace(std::span<const BatchRay> rays, std::span<RayEnd> ends);
 
@@ -48,7 +51,8 @@ class LaneBatch {
   // In all lanes.
   void attempt();
   [[nodiscard]] M control_step(const M& numbers);
-  [[nodiscard]] M uneventful(const LaneProbe<W>& probe);
+  [[nodiscard]] M uneventful(const LaneProbe<W>& probe, const M& good);
+  [[nodiscard]] M far_from_things(const M& asked) const;
   [[nodiscard]] M far_from_radius(const LaneSurface& surface, const LaneProbe<W>& probe) const;
   void pass_half_plane(LaneSurface& surface) const;
   void commit(const M& quiet, const LaneProbe<W>& probe, const T& rest);
@@ -58,6 +62,7 @@ class LaneBatch {
   const TraceSettings& settings_;
   MethodCard method_;
   std::unique_ptr<LaneKernel<W>> kernel_;
+  PathWatch* things_;
   bool lanes_see_all_ = true;  ///< no surface, projection or the like that only the scalar code knows
   std::vector<std::unique_ptr<RayTrace>> alone_;
   std::vector<LaneSurface> surfaces_;
@@ -81,16 +86,18 @@ class LaneBatch {
 
 template <int W>
 LaneBatch<W>::LaneBatch(const Spacetime& spacetime, const TraceSettings& settings,
-                        std::unique_ptr<LaneKernel<W>> kernel)
+                        std::unique_ptr<LaneKernel<W>> kernel, PathWatch* things)
     : spacetime_(spacetime),
       settings_(settings),
       method_(method_card(settings.method)),
       kernel_(std::move(kernel)),
+      things_(things),
       lanes_see_all_(settings.projection == Projection::none),
       now_{.chart = *spacetime.lane_charts().template of_width<W>()} {
   for (int i = 0; i < W; ++i) {
     alone_.push_back(std::make_unique<RayTrace>(spacetime, settings));
     alone_.back()->keep_stepper();
+    alone_.back()->look_for(things_);
   }
   SurfaceWatch& watch = alone_.front()->watch();
   for (std::size_t s = 0; s < watch.size(); ++s) {
@@ -118,7 +125,7 @@ void LaneBatch<W>::take_next(int i) {
   while (next_ < rays_.size()) {
     index_[place] = next_++;
     const BatchRay& start = rays_[index_[place]];
-    std::optional<Status> status = ray.begin(start.start, start.sheet, start.r_max);
+    std::optional<Status> status = ray.begin(start.start, start.sheet, start.r_max, index_[place]);
     if (!status) status = ray.spent();
     if (status) {
       ends_[index_[place]] = ray.end(*status);
@@ -246,7 +253,7 @@ void LaneBatch<W>::attempt() {
   const M good = active_ & control_step(numbers);
 
   const LaneProbe<W> probe = now_.chart.probe(step_.y, step_.rate, sheet_);
-  const M quiet = good & uneventful(probe);
+  const M quiet = good & uneventful(probe, good);
   commit(quiet, probe, rest);
   const M loud = good & !quiet;
   if (any(loud)) {
@@ -287,17 +294,9 @@ Mask<W> LaneBatch<W>::control_step(const M& numbers) {
   return good;
 }
 
-/// How far a path can be from its chord: the cubic through both ends and both slopes deviates by at most 4/27 of this,
-/// and is monotone where this is less than the chord.
-template <class T>
-[[nodiscard]] T bend_of(const T& h, const T& g0, const T& rate0, const T& g1, const T& rate1) {
-  const T chord = g1 - g0;
-  return abs(h * rate0 - chord) + abs(h * rate1 - chord);
-}
-
 /// Where a step meets no stop and the ray goes on in this chart.
 template <int W>
-Mask<W> LaneBatch<W>::uneventful(const LaneProbe<W>& probe) {
+Mask<W> LaneBatch<W>::uneventful(const LaneProbe<W>& probe, const M& good) {
   if (!lanes_see_all_) return M(false);
   M calm = probe.inside & probe.stays & !(probe.null_residual > useless_residual);
   for (LaneSurface& surface : surfaces_) {
@@ -310,7 +309,28 @@ Mask<W> LaneBatch<W>::uneventful(const LaneProbe<W>& probe) {
     }
     calm = calm & surface.far;
   }
-  return calm;
+  return things_ == nullptr ? calm : calm & far_from_things(good & calm);
+}
+
+/// Where a step is out of reach of everything in space.
+template <int W>
+Mask<W> LaneBatch<W>::far_from_things(const M& asked) const {
+  std::array<T, 3> bend;
+  for (std::size_t k = 0; k < 3; ++k) {
+    bend[k] = bend_of(now_.h, now_.y[k + 1], now_.rate[k + 1], step_.y[k + 1], step_.rate[k + 1]);
+  }
+  M far = asked;
+  for (int i = 0; i < W; ++i) {
+    if (!lane(asked, i)) continue;
+    const auto of_lane = [i](const T& x, const T& y, const T& z) {
+      return std::array<double, 3>{lane(x, i), lane(y, i), lane(z, i)};
+    };
+    if (things_->may_meet(of_lane(now_.y[1], now_.y[2], now_.y[3]), of_lane(step_.y[1], step_.y[2], step_.y[3]),
+                          of_lane(bend[0], bend[1], bend[2]))) {
+      set_lane(far, i, false);
+    }
+  }
+  return far;
 }
 
 /// Where the radius is on its side of the level at both ends, further from it than its path bends; or, for a surface

@@ -115,7 +115,9 @@ void RayTrace::first_step() {
   now_.h_first = now_.h;
 }
 
-std::optional<Status> RayTrace::begin(const PhaseState<double>& start, int sheet, std::optional<double> r_max) {
+std::optional<Status> RayTrace::begin(const PhaseState<double>& start, int sheet, std::optional<double> r_max,
+                                      std::size_t number) {
+  number_ = number;
   r_max_ = r_max ? r_max : settings_.r_max;
   chart_ = &home_;
   sheet_ = sheet;
@@ -188,17 +190,25 @@ std::optional<Status> RayTrace::accept(const StepOutcome& outcome, double h, std
   const double lambda_begin = now_.lambda.sum;
   const std::span<const Crossing> crossings =
       watch_.crossings({*chart_, sheet_, begin, outcome.y, h, *stepper_}, far_surfaces);
-  record_hits(crossings, h);
   const Surface* last = crossings.empty() ? nullptr : &watch_.surface(crossings.back().surface);
   const bool cut = last != nullptr && (last->terminal || last->cuts);
-  now_.y = cut ? crossings.back().y : outcome.y;
-  const double fraction = cut ? crossings.back().theta : 1.0;
-  now_.lambda.add(fraction * h);
-  if (!cut && h == settings_.lambda_max - lambda_begin) now_.lambda = {settings_.lambda_max, 0.0};
-  ++now_.steps;
-
+  double fraction = cut ? crossings.back().theta : 1.0;
   // The stepper may have repeated the step as the shorter one.
-  const double part = cut && method_.dense_order >= method_.order - 1 ? fraction : 1.0;
+  double part = cut && method_.dense_order >= method_.order - 1 ? fraction : 1.0;
+  PhaseState<double> end = cut ? crossings.back().y : outcome.y;
+  const std::optional<double> thing =
+      meeting({*chart_, sheet_, lambda_begin + fraction * h, fraction * h, begin, end, *stepper_, part},
+              part == 1.0 ? end : outcome.y);
+  if (thing) {
+    part *= *thing;
+    fraction *= *thing;
+    end = stepper_->interpolate(part);
+  }
+  record_hits(crossings, h, fraction);
+  now_.y = end;
+  now_.lambda.add(fraction * h);
+  if (fraction == 1.0 && h == settings_.lambda_max - lambda_begin) now_.lambda = {settings_.lambda_max, 0.0};
+  ++now_.steps;
   if (!chart_->inside_domain(now_.y.x())) {
     retreat_into_domain(begin, lambda_begin, fraction * h, part);
     note_residual();
@@ -206,12 +216,28 @@ std::optional<Status> RayTrace::accept(const StepOutcome& outcome, double h, std
   }
   const bool rises = cut && crossings.back().direction > 0;
   const std::optional<Status> trouble = finish_step(begin, fraction * h, part);
+  if (thing) return Status::hit;
   if (cut && last->terminal) return last->status;
   if (cut) {
     now_.inside_interface = !rises;
     begin_chart();
   }
   return trouble;
+}
+
+/// The first thing on a step, part of the one that the stepper made last and that ended at `stepped`.
+std::optional<double> RayTrace::meeting(const StepView& step, const PhaseState<double>& stepped) const {
+  if (things_ == nullptr) return std::nullopt;
+  const PhaseState<double>&from = step.stepper.begin_rate(), &to = step.stepper.end_rate();
+  std::array<double, 3> begin{}, end{}, bend{};
+  for (std::size_t i = 1; i < 4; ++i) {
+    begin[i - 1] = step.begin[i];
+    end[i - 1] = step.end[i];
+    // Of the whole step: a part of it bends less.
+    bend[i - 1] = bend_of(step.h / step.part, step.begin[i], from[i], stepped[i], to[i]);
+  }
+  if (!things_->may_meet(begin, end, bend)) return std::nullopt;
+  return things_->first_meeting(number_, step);
 }
 
 /// Projection, bookkeeping, the observer, and the next chart.
@@ -277,8 +303,10 @@ void RayTrace::retreat_into_domain(const PhaseState<double>& begin, double lambd
   now_.lambda = {lambda_begin + inside * h, 0.0};
 }
 
-void RayTrace::record_hits(std::span<const Crossing> crossings, double h) {
+/// Of the crossings up to fraction `last` of the step.
+void RayTrace::record_hits(std::span<const Crossing> crossings, double h, double last) {
   for (const Crossing& crossing : crossings) {
+    if (crossing.theta > last) return;
     const Surface& surface = watch_.surface(crossing.surface);
     if (surface.kind == SurfaceKind::half_plane && crossing.y[1] < 0.0) now_.windings -= crossing.direction;
     if (surface.kind != SurfaceKind::event) continue;

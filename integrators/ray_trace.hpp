@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "integrators/path_watch.hpp"
 #include "integrators/projection.hpp"
 #include "integrators/step_control.hpp"
 #include "integrators/surface_watch.hpp"
@@ -70,10 +71,13 @@ class RayTrace {
   /// Keeps the stepper from ray to ray: for a batch, which makes the steps itself and only lets the stepper
   /// interpolate.
   void keep_stepper() { keeps_stepper_ = true; }
+  /// Ends rays at the things that they meet.
+  void look_for(PathWatch* things) { things_ = things; }
 
-  /// Sets out from `start`, with its own r_max where one is given. A status where the ray ends before the first step.
+  /// Sets out from `start` as ray `number` of a batch, with its own r_max where one is given. A status where the ray
+  /// ends before the first step.
   [[nodiscard]] std::optional<Status> begin(const PhaseState<double>& start, int sheet,
-                                            std::optional<double> r_max = std::nullopt);
+                                            std::optional<double> r_max = std::nullopt, std::size_t number = 0);
   /// Steps until the ray ends.
   [[nodiscard]] Status go_on();
   /// Whether a budget is spent.
@@ -97,11 +101,12 @@ class RayTrace {
   void begin_chart();
   void first_step();
   [[nodiscard]] std::optional<Status> try_step();
+  [[nodiscard]] std::optional<double> meeting(const StepView& step, const PhaseState<double>& stepped) const;
   [[nodiscard]] std::optional<Status> finish_step(const PhaseState<double>& begin, double h, double part);
   [[nodiscard]] double radial_change();
   [[nodiscard]] std::optional<Status> beyond_radius();
   void retreat_into_domain(const PhaseState<double>& begin, double lambda_begin, double h, double part);
-  void record_hits(std::span<const Crossing> crossings, double h);
+  void record_hits(std::span<const Crossing> crossings, double h, double last);
   void note_residual();
   void count_evaluations();
 
@@ -122,6 +127,8 @@ class RayTrace {
   long evaluations_counted_ = 0;
   MethodCard method_;
   std::vector<EventHit> hits_;
+  PathWatch* things_ = nullptr;
+  std::size_t number_ = 0;
 };
 
 }  // namespace xpr
