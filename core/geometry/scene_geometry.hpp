@@ -144,6 +144,8 @@ class SceneGeometry {
   [[nodiscard]] virtual Found find(const RayPath& path, GeometryCounts& counts) const = 0;
   [[nodiscard]] virtual Found find(const StraightRay& ray, GeometryCounts& counts) const = 0;
   [[nodiscard]] const std::vector<Placed>& placed() const { return placed_; }
+  /// How far rounding may move anything that a query with coordinates up to `path_magnitude` compares, in the world.
+  [[nodiscard]] double margin(double path_magnitude) const;
 
  private:
   [[nodiscard]] SurfaceHit complete(const Found& found, const Vec3& position, const Vec3& direction) const;
@@ -151,6 +153,8 @@ class SceneGeometry {
   GeometryModel model_;
   std::vector<Placed> placed_;
   Box3 bounds_;
+  double reach_ = 0.0;      ///< the largest |coordinate| of instances and of their shifts
+  double condition_ = 1.0;  ///< the largest of the instances
   std::uint64_t triangle_count_ = 0;
 };
 

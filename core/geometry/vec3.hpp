@@ -1,6 +1,7 @@
 // Points and directions of Euclidean space, in double precision: what scenes are made of.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -27,6 +28,10 @@ struct Vec3 {
 [[nodiscard]] inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 /// The unit vector along a. Not finite for a = 0.
 [[nodiscard]] inline Vec3 normalized(const Vec3& a) { return (1.0 / length(a)) * a; }
+/// The largest |coordinate|.
+[[nodiscard]] inline double largest_magnitude(const Vec3& a) {
+  return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
+}
 [[nodiscard]] inline bool is_finite(const Vec3& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
