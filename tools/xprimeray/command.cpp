@@ -11,7 +11,6 @@
 #include "core/io/csv.hpp"
 #include "core/io/errors.hpp"
 #include "integrators/batch_tracer.hpp"
-#include "metrics/catalogue.hpp"
 
 namespace xpr::cli {
 namespace {
@@ -41,12 +40,6 @@ void check_lanes(std::string_view command, int lanes) {
 }
 
 void add_example(CLI::App& command, const std::string& lines) { command.footer("Example:\n" + lines); }
-
-std::string unknown_name(std::string_view what, std::string_view name, const std::vector<std::string_view>& known) {
-  const std::string near = nearest_name(name, known);
-  if (!near.empty()) return fmt::format("unknown {} '{}'; did you mean '{}'?", what, name, near);
-  return fmt::format("unknown {} '{}'; there are {}", what, name, fmt::join(known, ", "));
-}
 
 void add_parameter(std::vector<NamedValue>& parameters, const std::string& text) {
   const std::size_t equals = text.find('=');

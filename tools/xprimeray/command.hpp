@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/io/names.hpp"
 #include "metrics/spacetime.hpp"
 
 namespace xpr::cli {
@@ -50,10 +51,6 @@ void add_example(CLI::App& command, const std::string& lines);
 /// the options without the dashes; a table stands for an option that takes name=value. Throws InputError for what is
 /// no TOML, for values of a wrong kind, and for unknown keys, naming the nearest known one.
 void apply_config(CLI::App& command, const std::string& path);
-
-/// "unknown WHAT 'x'; did you mean 'y'?", or the known ones where none is near.
-[[nodiscard]] std::string unknown_name(std::string_view what, std::string_view name,
-                                       const std::vector<std::string_view>& known);
 
 /// Adds the parameter of "--set a=0.9"; its name is a view into the text. Throws InputError for what is no name=number
 /// and for a name that is set already.

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "command.hpp"
+#include "core/io/angle.hpp"
 #include "core/io/csv.hpp"
 #include "core/io/errors.hpp"
 #include "core/io/json.hpp"
@@ -39,15 +40,6 @@ std::optional<double> number(const std::string& text) {
   return value;
 }
 
-/// An angle with its unit: 60deg, 1.05rad.
-double angle_named(const std::string& name, const std::string& text) {
-  for (const auto& [unit, size] : {std::pair{"deg", std::numbers::pi / 180.0}, {"rad", 1.0}}) {
-    if (!text.ends_with(unit)) continue;
-    if (const auto value = number(text.substr(0, text.size() - 3))) return *value * size;
-  }
-  refuse(fmt::format("--observer {}={}, needs a number with its unit, as in 60deg or 1.05rad", name, text));
-}
-
 /// r=1000,inclination=60deg
 void set_observer(CameraScreen& screen, const std::string& text) {
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -61,7 +53,10 @@ void set_observer(CameraScreen& screen, const std::string& text) {
       if (!radius) refuse(fmt::format("--observer r={}, needs a number", value));
       screen.radius = *radius;
     } else if (name == "inclination") {
-      screen.inclination = angle_named(name, value);
+      const auto angle = parse_angle(value);
+      if (!angle)
+        refuse(fmt::format("--observer {}={}, needs a number with its unit, as in 60deg or 1.05rad", name, value));
+      screen.inclination = *angle;
     } else {
       refuse(fmt::format("--observer: {}; it takes r and inclination, as in r=1000,inclination=60deg",
                          unknown_name("part", name, {"r", "inclination"})));

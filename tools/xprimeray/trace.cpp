@@ -12,6 +12,7 @@
 #include "core/io/json.hpp"
 #include "core/io/provenance.hpp"
 #include "core/io/ray_table.hpp"
+#include "core/projection_names.hpp"
 #include "core/trace_table.hpp"
 #include "core/transport.hpp"
 #include "metrics/catalogue.hpp"
@@ -32,15 +33,6 @@ struct TraceOptions {
   int threads = 0;
   int lanes = 0;
 };
-
-constexpr std::array<std::string_view, 4> projections{"none", "energy", "momentum", "full"};  // as in the enum
-
-Projection projection_named(const std::string& name) {
-  for (std::size_t k = 0; k < projections.size(); ++k) {
-    if (projections[k] == name) return static_cast<Projection>(k);
-  }
-  throw InputError(unknown_name("projection", name, {projections.begin(), projections.end()}));
-}
 
 // Settings as they are after defaults, for people who want to repeat the run.
 Json resolved(const TraceOptions& options, const Transport& transport) {
