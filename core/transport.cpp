@@ -18,17 +18,6 @@
 namespace xpr {
 namespace {
 
-// What lengths are measured in: the mass where there is one, else the throat, the lens, the ellipsoid, else one.
-double length_unit(const Spacetime& spacetime) {
-  constexpr std::array<std::string_view, 4> scales{"M", "b0", "R", "a_axis"};
-  for (const std::string_view scale : scales) {
-    for (const NamedValue& parameter : spacetime.parameters()) {
-      if (parameter.name == scale) return parameter.value;
-    }
-  }
-  return 1.0;
-}
-
 void need(bool good, const std::string& what) {
   if (!good) throw std::invalid_argument(what);
 }
@@ -81,6 +70,16 @@ std::unique_ptr<Spacetime> make_transport_chart(const TransportSettings& setting
 
 }  // namespace
 
+double length_unit_of(const Spacetime& spacetime) {
+  constexpr std::array<std::string_view, 4> scales{"M", "b0", "R", "a_axis"};
+  for (const std::string_view scale : scales) {
+    for (const NamedValue& parameter : spacetime.parameters()) {
+      if (parameter.name == scale) return parameter.value;
+    }
+  }
+  return 1.0;
+}
+
 Transport::Transport(TransportSettings settings)
     : settings_(std::move(settings)),
       chart_(make_spacetime(settings_.metric, settings_.chart, settings_.parameters)),
@@ -88,7 +87,7 @@ Transport::Transport(TransportSettings settings)
       backward_(make_transport_chart(settings_, false)) {
   settings_.chart = chart_->card().chart;
   settings_.parameters = chart_->parameters();  // all of them, with names that live as long as the program
-  settings_.trace.length_unit = length_unit(*chart_);
+  settings_.trace.length_unit = length_unit_of(*chart_);
   if (!settings_.trace.r_min) settings_.trace.r_min = forward_->default_r_min();
   check(settings_.trace, *forward_);
   const bool two_sided = chart_->proper_distance({0.0, 1.0, 1.0, 1.0}, 1).has_value();

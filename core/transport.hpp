@@ -47,6 +47,9 @@ struct TransportSettings {
   TraceSettings trace = {};          ///< stops left unset get their defaults (DESIGN section 4)
 };
 
+/// What lengths are measured in: the mass where there is one, else the throat, the lens, the ellipsoid, else one.
+[[nodiscard]] double length_unit_of(const Spacetime& spacetime);
+
 /// A spacetime made ready to transport rays. Immutable; trace() may be called from many threads.
 class Transport {
  public:
