@@ -12,9 +12,9 @@ namespace xpr {
 
 using Quad = boost::multiprecision::cpp_bin_float_quad;
 
-/// Boost's logarithm asks for the limits of Quad's variant with expression templates, whose epsilon is made on first use
-/// without a lock, and not at start as that of Quad itself is (Boost 1.74): two threads at once could meet it half made.
-/// It is made here before there are threads.
+/// Boost's logarithm asks for the limits of Quad's variant with expression templates, whose epsilon is made on first
+/// use without a lock, and not at start as that of Quad itself is (Boost 1.74): two threads at once could meet it half
+/// made. It is made here before there are threads.
 inline const bool quad_limits_are_made = [] {
   using Variant = boost::multiprecision::number<Quad::backend_type, boost::multiprecision::et_on>;
   return std::numeric_limits<Variant>::epsilon() > 0;
