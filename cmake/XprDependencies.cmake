@@ -12,6 +12,8 @@ find_package(TBB REQUIRED)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 # By pkg-config: its CMake package warns about Imath at length.
 pkg_check_modules(OPENEXR REQUIRED IMPORTED_TARGET OpenEXR)
+pkg_check_modules(TINYGLTF REQUIRED IMPORTED_TARGET tinygltf)
+pkg_check_modules(TINYOBJLOADER REQUIRED IMPORTED_TARGET tinyobjloader_double)
 
 # Debian's GeographicLib 2.1.2 ships no CMake config package: config, then pkg-config, then a plain search.
 find_package(GeographicLib CONFIG QUIET)
