@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/polar_fold.hpp"
 #include "metrics/scalar/elementary.hpp"
 
 namespace xpr {
@@ -16,16 +17,6 @@ std::optional<std::size_t> index_of(const Card& card, CoordinateKind kind) {
     if (card.coordinates[mu].kind == kind) return mu;
   }
   return std::nullopt;
-}
-
-// theta outside [0, pi] means that the axis was crossed, once for each multiple of pi.
-void fold_polar_angle(PhaseState<double>& y, std::size_t polar, std::size_t azimuth) {
-  const double crossings = std::floor(y[polar] / half_turn);
-  if (crossings == 0.0 || !std::isfinite(crossings) || y[polar] == half_turn) return;
-  const bool odd = std::fmod(crossings, 2.0) != 0.0;
-  y[polar] = odd ? (crossings + 1.0) * half_turn - y[polar] : y[polar] - crossings * half_turn;
-  if (odd) y[4 + polar] = -y[4 + polar];
-  y[azimuth] += std::abs(crossings) * half_turn;
 }
 
 }  // namespace

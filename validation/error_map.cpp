@@ -16,6 +16,7 @@
 #include "core/workers.hpp"
 #include "integrators/batch_tracer.hpp"
 #include "metrics/kerr_ray_exact.hpp"
+#include "validation/directions.hpp"
 
 namespace xpr {
 namespace {
@@ -49,30 +50,15 @@ class ExactCamera {
       const Arrival ahead = end(alpha + axis[0], beta + axis[1]);
       const Arrival behind = end(alpha - axis[0], beta - axis[1]);
       if (!ahead.reached || !behind.reached || ahead.fate != fate || behind.fate != fate) return nan;
-      most = std::max(most, angle(ahead.direction(), behind.direction()) * screen_.mass / (2.0 * step));
+      most = std::max(most, angle_between(ahead.direction(), behind.direction()) * screen_.mass / (2.0 * step));
     }
     return most;
-  }
-
-  /// The angle between two unit vectors, exact for small ones too.
-  [[nodiscard]] static double angle(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-    double apart = 0.0;
-    double along = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      apart += (a[i] - b[i]) * (a[i] - b[i]);
-      along += (a[i] + b[i]) * (a[i] + b[i]);
-    }
-    return 2.0 * std::atan2(std::sqrt(apart), std::sqrt(along));
   }
 
  private:
   const CameraScreen& screen_;
   double r_min_;
 };
-
-std::array<double, 3> direction(double theta, double phi) {
-  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
-}
 
 bool agrees(Status status, Fate fate) {
   return (status == Status::escaped && fate == Fate::escaped) || (status == Status::captured && fate == Fate::captured);
@@ -174,7 +160,7 @@ class Mapping {
     map_.swept_error[k] = meridional ? std::abs(std::remainder(swept, turn)) : swept;
     map_.time_error[k] = std::abs(ray.end[0] + exact.time.value);
     const std::array<double, 3> there{exact.direction()[0], -exact.direction()[1], exact.direction()[2]};
-    map_.direction_error[k] = ExactCamera::angle(direction(ray.end[2], ray.end[3]), there);
+    map_.direction_error[k] = angle_between(direction_of(ray.end[2], ray.end[3]), there);
     map_.truth_error[k] = exact.direction_error;
   }
 

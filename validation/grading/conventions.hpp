@@ -1,0 +1,62 @@
+// Mistakes of convention, recognised and named: ends that are wrong by more than a tracer can be, and right once an
+// angle's sign, its unit or an index's place is changed.
+//
+// A mistake is named only if undoing it brings the errors of three quarters of the rays down by a factor of 30 at
+// least, to 0.03 or less. Half the mass, a wrong step or a wrong metric is none of these, and stays what it is.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "validation/grading/score.hpp"
+
+namespace xpr {
+
+/// How a mistake is undone: on the table as it stands, in its own chart; on an end in the home chart; or on what the
+/// code took the start to be. Members not set do nothing.
+struct Convention {
+  std::string_view id;
+  std::string_view says;
+  Quantity shows;  ///< what is wrong by it: direction, heading, time, affine or (windings) swept
+  HandedRay (*table)(const HandedRay& ray, const Spacetime& chart) = nullptr;
+  HandedRay (*end)(const HandedRay& ray, const PhaseState<double>& start) = nullptr;
+  PhaseState<double> (*start)(const PhaseState<double>& start) = nullptr;
+  double spin_sign = 1.0;
+  std::string_view chart = {};  ///< the table is in this chart instead
+};
+
+/// A mistake found, with the third quartile of the errors in what it shows, as handed in and once it is undone. The
+/// errors of wrapped windings are whole turns.
+struct ConventionFound {
+  const Convention* convention;
+  double before;
+  double after;
+};
+
+/// All conventions that are looked for.
+[[nodiscard]] const std::vector<Convention>& conventions();
+
+/// The rays' ends in the home chart and their exact courses, once mistakes are undone.
+class Undoing {
+ public:
+  Undoing(const Examiner& examiner, const HandIn& hand_in, std::vector<const Convention*> undone);
+
+  /// Ray k compared, without its conditions.
+  [[nodiscard]] RayScore compare(std::size_t k) const;
+  [[nodiscard]] HandedRay end(std::size_t k) const;
+  /// Whether phi counts its turns.
+  [[nodiscard]] bool windings_known() const { return windings_known_; }
+
+ private:
+  const Examiner& examiner_;
+  const HandIn& hand_in_;
+  std::vector<const Convention*> undone_;
+  std::unique_ptr<Spacetime> chart_;
+  bool windings_known_;
+};
+
+/// What explains the errors of a table, most telling first. Empty where it is right, or wrong in a way of its own.
+[[nodiscard]] std::vector<ConventionFound> recognised_conventions(const Examiner& examiner, const HandIn& hand_in);
+
+}  // namespace xpr
