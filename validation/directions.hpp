@@ -8,7 +8,7 @@ namespace xpr {
 
 using Direction = std::array<double, 3>;
 
-[[nodiscard]] inline Direction direction_of(double theta, double phi) {
+[[nodiscard]] inline Direction unit_direction(double theta, double phi) {
   return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 

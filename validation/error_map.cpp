@@ -160,7 +160,7 @@ class Mapping {
     map_.swept_error[k] = meridional ? std::abs(std::remainder(swept, turn)) : swept;
     map_.time_error[k] = std::abs(ray.end[0] + exact.time.value);
     const std::array<double, 3> there{exact.direction()[0], -exact.direction()[1], exact.direction()[2]};
-    map_.direction_error[k] = angle_between(direction_of(ray.end[2], ray.end[3]), there);
+    map_.direction_error[k] = angle_between(unit_direction(ray.end[2], ray.end[3]), there);
     map_.truth_error[k] = exact.direction_error;
   }
 

@@ -38,7 +38,9 @@ TEST(ChallengeSets, begin_with_the_same_rays_whatever_their_number_and_share_no_
       const Ray& ray = many.ray(k).ray;
       EXPECT_TRUE(ids.insert(ray.id).second) << ray.id;
       EXPECT_EQ(set_of_id(ray.id), &set);
-      if (k < 20) EXPECT_EQ(few.ray(k).ray.start.c, ray.start.c) << set.id;
+      if (k < 20) {
+        EXPECT_EQ(few.ray(k).ray.start.c, ray.start.c) << set.id;
+      }
     }
   }
   EXPECT_EQ(set_of_id(7), nullptr);

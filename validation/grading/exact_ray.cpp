@@ -109,7 +109,7 @@ class StraightCourse final : public ExactRay {
     end.state = {{y[0] + start_.time_sense * (way - way_), r, there.theta.value, y[3] + there.phi.value},
                  {y[4], start_.energy * way / r, start_.p_theta((b - across) * (b + across), there.polar_sign), y[7]}};
     end.lambda = (way - way_) / start_.energy;
-    end.direction = direction_of(there.theta.value, end.state[3]);
+    end.direction = unit_direction(there.theta.value, end.state[3]);
     end.direction_error = there.direction_error;
     return end;
   }
@@ -151,7 +151,7 @@ class EllisCourse final : public ExactRay {
         {y[4], there.radial_sign * start_.energy * radial,
          start_.p_theta((impact_ - across) * (impact_ + across), there.direction.polar_sign), y[7]}};
     end.lambda = there.time.value / start_.energy;
-    end.direction = direction_of(there.direction.theta.value, end.state[3]);
+    end.direction = unit_direction(there.direction.theta.value, end.state[3]);
     end.direction_error = there.direction.direction_error;
     return end;
   }

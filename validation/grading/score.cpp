@@ -84,7 +84,7 @@ double Examiner::length_along(const PhaseState<double>& y) const {
 }
 
 Direction Examiner::direction(const PhaseState<double>& y) const {
-  return spherical_ ? direction_of(y[2], y[3]) : scaled_to_one({y[1], y[2], y[3]});
+  return spherical_ ? unit_direction(y[2], y[3]) : scaled_to_one({y[1], y[2], y[3]});
 }
 
 // Along the axes of a static grid's orthonormal frame, as a vector in space: near a pole its components turn, it does
