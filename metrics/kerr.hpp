@@ -182,23 +182,33 @@ struct KerrSchild : KerrParameters {
 
   /// From outgoing to ingoing: twice the shift, about the axis by the phase of (r + ia) / (r - ia) as well.
   template <class T>
-  requires(Direction < 0) [[nodiscard]] constexpr Vec4<T> to_hub(const Vec4<T>& x, int /*sheet*/) const {
-    return turned(x, 1.0);
+  requires(Direction < 0) [[nodiscard]] constexpr PhaseState<T> to_hub(const PhaseState<T>& y, int /*sheet*/) const {
+    return turned(y, 1.0);
   }
   template <class T>
-  requires(Direction < 0) [[nodiscard]] constexpr Vec4<T> from_hub(const Vec4<T>& x) const { return turned(x, -1.0); }
+  requires(Direction < 0) [[nodiscard]] constexpr PhaseState<T> from_hub(const PhaseState<T>& y) const {
+    return turned(y, -1.0);
+  }
 
  private:
+  /// What diverges on a horizon, p_r's share of the shift, is taken off (or put on) where it stands, before p is
+  /// turned: the angle's round-off, which grows as 1 / Delta too, times that share would be left otherwise.
   template <class T>
-  [[nodiscard]] constexpr Vec4<T> turned(const Vec4<T>& x, double sense) const {
-    const T r = spheroidal_radius(x, T(a)).r;
+  [[nodiscard]] constexpr PhaseState<T> turned(const PhaseState<T>& y, double sense) const {
+    const auto [r, sigma] = spheroidal_radius(y.x(), T(a));
+    const T long_axis_sq = square(r) + square(T(a)), inv = 1.0 / long_axis_sq;
+    const T L = y[1] * y[6] - y[2] * y[5];
+    const T share = -2.0 * sense * ((2.0 * M * r * y[4] + a * L) / delta(r) - a * L * inv);
+    const T in_plane = share * r / sigma;  // times dr/dx^i
+    const T p_x = y[5] + in_plane * y[1], p_y = y[6] + in_plane * y[2];
+    const T p_z = y[7] + share * long_axis_sq * y[3] / (r * sigma);
     const KerrShift<T> shift = kerr_shift(*this, r);
     const auto [sin_shift, cos_shift] = sincos(2.0 * sense * shift.azimuth);
-    const T inv = 1.0 / (square(r) + square(T(a)));
     const T sin_phase = 2.0 * sense * a * r * inv, cos_phase = (square(r) - square(T(a))) * inv;
     const T sine = sin_shift * cos_phase + cos_shift * sin_phase;
     const T cosine = cos_shift * cos_phase - sin_shift * sin_phase;
-    return {x[0] + 2.0 * sense * shift.time, cosine * x[1] - sine * x[2], sine * x[1] + cosine * x[2], x[3]};
+    return {{y[0] + 2.0 * sense * shift.time, cosine * y[1] - sine * y[2], sine * y[1] + cosine * y[2], y[3]},
+            {y[4], cosine * p_x - sine * p_y, sine * p_x + cosine * p_y, p_z}};
   }
 };
 

@@ -15,6 +15,7 @@ namespace xpr {
 [[nodiscard]] std::vector<Case> media_cases();  ///< uniform, Luneburg, Maxwell
 [[nodiscard]] std::vector<Case> ellipsoid_cases();  ///< geodesics of the ellipsoid
 [[nodiscard]] std::vector<Case> numerical_cases();  ///< what the integrators promise of themselves
+[[nodiscard]] std::vector<Case> grading_cases();    ///< what report cards say of known rays
 
 [[nodiscard]] std::vector<Fault> metric_faults();         ///< wrong-on-purpose spacetimes
 [[nodiscard]] std::vector<Fault> flat_faults();           ///< the axis and aberration gone wrong
@@ -23,5 +24,6 @@ namespace xpr {
 [[nodiscard]] std::vector<Fault> ellis_faults();          ///< wrong closed forms
 [[nodiscard]] std::vector<Fault> media_faults();          ///< a wrong focus
 [[nodiscard]] std::vector<Fault> numerical_faults();      ///< wrong steppers, events and projections
+[[nodiscard]] std::vector<Fault> grading_faults();        ///< wrong adapters, truths and cards
 
 }  // namespace xpr

@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "grading_rays.hpp"
+#include "metrics/catalogue.hpp"
+#include "metrics/null_cone.hpp"
 
 namespace xpr {
 namespace {
@@ -39,15 +41,28 @@ void expect_named(const char* set, const Alter& alter, const Names& names) {
   expect_named(examiner, exact_hand_in(examiner, examiner.set().home_chart, alter), names);
 }
 
+using AlterStart = std::function<void(PhaseState<double>&)>;
+
+/// What a code finds anew where its idea of the start is no light: p_t, or p_r from E, L and Q.
+enum class Follows { p_t, p_r };
+
 /// A code that takes other rays for those of the set, and hands in their exact ends.
-HandIn ends_of(const Examiner& examiner, double spin_sign, const std::function<void(PhaseState<double>&)>& alter) {
+HandIn ends_of(const Examiner& examiner, double spin_sign, const AlterStart& alter, Follows follows = Follows::p_r) {
   std::vector<NamedValue> parameters = examiner.set().parameters;
   for (NamedValue& p : parameters) p.value *= p.name == "a" ? spin_sign : 1.0;
+  const auto home = make_spacetime(examiner.set().metric, examiner.set().home_chart, parameters);
   return exact_hand_in(examiner, examiner.set().home_chart, [&](std::size_t k, HandedRay& ray) {
     PhaseState<double> start = examiner.ray(k).ray.start;
     alter(start);
-    const auto exact = exact_ray(examiner.set().metric, parameters, start);
+    const double sign = start[4] < 0.0 ? 1.0 : -1.0;
+    if (follows == Follows::p_t) start[4] = null_momentum(*home, start.x(), start.p(), sign).value()[0];
     const double horizon = examiner.home().horizon_radius().value_or(0.0);
+    if (start[4] * sign >= 0.0) {  // light of negative energy falls in; where, no closed form tells
+      ray.status = Status::captured;
+      ray.end[1] = 1.02 * horizon;
+      return;
+    }
+    const auto exact = exact_ray(examiner.set().metric, parameters, start);
     const double r = exact->captured() ? 1.02 * horizon : examiner.set().r_max;
     const ExactEnd end = exact->at(r, exact->turns_at_end());
     ray.status = exact->captured() ? Status::captured : Status::escaped;
@@ -116,22 +131,62 @@ TEST(Conventions, phi_counted_from_the_start_is_recognised) {
 TEST(Conventions, a_flipped_spin_is_recognised) {
   for (const char* set : {"kerr-core", "kerr-hard"}) {
     const Examiner examiner(challenge_set(set), 300);
-    const ReportCard card = grade(examiner, ends_of(examiner, -1.0, [](PhaseState<double>&) {}));
+    const ReportCard card = grade(examiner, ends_of(
+                                                examiner, -1.0, [](PhaseState<double>&) {}, Follows::p_t));
     EXPECT_EQ(named(card), Names{"spin-flipped"}) << set;
     EXPECT_LE(card.undone.grade, Letter::a) << set;
     EXPECT_GT(card.as_handed_in.grade, Letter::c) << set;
   }
+  // Light of the same E, L and Q; in kerr-hard some of it would start between its turning points.
+  const Examiner kerr(challenge_set("kerr-core"), 300);
+  const ReportCard card = grade(kerr, ends_of(kerr, -1.0, [](PhaseState<double>&) {}));
+  EXPECT_EQ(named(card), Names{"spin-flipped"});
+  EXPECT_LE(card.undone.grade, Letter::a);
+}
+
+TEST(Conventions, a_flipped_spin_is_recognised_in_kerr_schild_too) {
+  // x + iy = (r + ia) e^{i phi}: with a of the wrong sign the same numbers are another event.
+  const Examiner kerr(challenge_set("kerr-core"), 300);
+  const std::vector<NamedValue> flipped{{"M", 1.0}, {"a", -0.9}};
+  const auto said = kerr.set().spacetime("kerr-schild"), taken = make_spacetime("kerr", "kerr-schild", flipped);
+  const auto home = make_spacetime("kerr", "boyer-lindquist", flipped);
+  HandIn hand_in = exact_hand_in(kerr, "kerr-schild");
+  for (std::size_t k = 0; k < hand_in.rays.size(); ++k) {
+    PhaseState<double> y = change_chart(kerr.home(), *said, kerr.ray(k).ray.start).state;
+    y[4] = null_momentum(*taken, y.x(), y.p(), y[4] < 0.0 ? 1.0 : -1.0).value()[0];
+    const auto exact = exact_ray("kerr", flipped, change_chart(*taken, *home, y).state);
+    const double r = exact->captured() ? 1.1 * home->horizon_radius().value() : 100.0;
+    const ExactEnd end = exact->at(r, exact->turns_at_end());
+    hand_in.rays[k] = {exact->captured() ? Status::captured : Status::escaped, 1,
+                       change_chart(*home, *taken, end.state).state, end.lambda};
+  }
+  const ReportCard card = grade(kerr, hand_in);
+  EXPECT_EQ(named(card), Names{"spin-flipped"});
+  EXPECT_LE(card.undone.grade, Letter::a);
+}
+
+TEST(Conventions, are_recognised_where_captured_rays_end_inside_the_horizon) {
+  const Examiner schwarzschild(challenge_set("schwarzschild-core"), 300);
+  expect_named(schwarzschild,
+               exact_hand_in(schwarzschild, "areal",
+                             [](std::size_t, HandedRay& ray) {
+                               if (ray.status == Status::captured) ray.end[1] = 1.9;
+                               ray.end[3] = -ray.end[3];
+                               ray.end[7] = -ray.end[7];
+                             }),
+               {"phi-sign"});
 }
 
 TEST(Conventions, a_mirrored_screen_is_recognised) {
   const Examiner kerr(challenge_set("kerr-core"), 300);
-  expect_named(kerr, ends_of(kerr, 1.0, [](PhaseState<double>& start) { start[7] = -start[7]; }), {"screen-mirrored"});
+  const AlterStart mirrored = [](PhaseState<double>& start) { start[7] = -start[7]; };
+  expect_named(kerr, ends_of(kerr, 1.0, mirrored), {"screen-mirrored"});
+  expect_named(kerr, ends_of(kerr, 1.0, mirrored, Follows::p_t), {"screen-mirrored"});
   expect_named(kerr, ends_of(kerr, 1.0, [](PhaseState<double>& start) { start[6] = -start[6]; }),
                {"screen-upside-down"});
   // Where nothing rotates, a mirrored screen cannot be told from phi that runs the other way.
   const Examiner schwarzschild(challenge_set("schwarzschild-core"), 300);
-  expect_named(schwarzschild, ends_of(schwarzschild, 1.0, [](PhaseState<double>& start) { start[7] = -start[7]; }),
-               {"phi-swept-backwards"});
+  expect_named(schwarzschild, ends_of(schwarzschild, 1.0, mirrored), {"phi-swept-backwards"});
 }
 
 TEST(Conventions, p_with_an_upper_index_is_recognised) {
@@ -155,12 +210,13 @@ TEST(Conventions, signs_and_scales_of_p_t_and_lambda_are_recognised) {
   expect_named("kerr-core", [](std::size_t, HandedRay& ray) { ray.end[0] = -ray.end[0]; }, {"t-sign"});
   expect_named("kerr-core", [](std::size_t, HandedRay& ray) { ray.lambda = -ray.lambda; }, {"lambda-sign"});
   const Examiner kerr(challenge_set("kerr-core"), 300);
-  expect_named(kerr, exact_hand_in(kerr, "boyer-lindquist",
-                                   [&](std::size_t k, HandedRay& ray) {
-                                     const double energy = std::abs(kerr.ray(k).ray.start[4]);
-                                     for (std::size_t i = 4; i < 8; ++i) ray.end[i] /= energy;
-                                     ray.lambda *= energy;
-                                   }),
+  expect_named(kerr,
+               exact_hand_in(kerr, "boyer-lindquist",
+                             [&](std::size_t k, HandedRay& ray) {
+                               const double energy = std::abs(kerr.ray(k).ray.start[4]);
+                               for (std::size_t i = 4; i < 8; ++i) ray.end[i] /= energy;
+                               ray.lambda *= energy;
+                             }),
                {"p-unit-energy", "lambda-unit-energy"});
 }
 

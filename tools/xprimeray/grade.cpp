@@ -14,7 +14,6 @@
 #include "core/io/ray_table.hpp"
 #include "grade.hpp"
 #include "metrics/catalogue.hpp"
-#include "metrics/chart_map.hpp"
 #include "reports/card_report.hpp"
 #include "reports/challenge_sheet.hpp"
 
@@ -25,11 +24,7 @@ std::vector<Ray> challenge_rays(const ChallengeSet& set, const std::string& char
   const auto home = set.spacetime(set.home_chart);
   const auto other = set.spacetime(chart);
   std::vector<Ray> rays;
-  for (std::int64_t k = 0; k < count; ++k) {
-    Ray ray = set.ray(*home, k).ray;
-    const ChartState there = change_chart(*home, *other, ray.start, ray.sheet);
-    rays.push_back({.id = ray.id, .start = there.state, .sheet = there.sheet});
-  }
+  for (std::int64_t k = 0; k < count; ++k) rays.push_back(set.ray_in(*other, *home, k));
   return rays;
 }
 

@@ -85,8 +85,7 @@ std::vector<RayScore> scores_of(const Examiner& examiner, const Undoing& undoing
   std::vector<RayScore> scores(static_cast<std::size_t>(examiner.count()));
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scores.size(), 64), [&](const auto& range) {
     for (std::size_t k = range.begin(); k < range.end(); ++k) {
-      scores[k] = undoing.compare(k);
-      if (scores[k].outcome == Outcome::compared) scores[k].condition = examiner.conditions(k, undoing.end(k).end);
+      scores[k] = undoing.score(k);
     }
   });
   return scores;

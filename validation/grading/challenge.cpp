@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "metrics/catalogue.hpp"
+#include "metrics/chart_map.hpp"
 #include "metrics/kerr_exact.hpp"
 #include "metrics/scalar/elementary.hpp"
 #include "validation/grading/challenge_starts.hpp"
@@ -281,6 +282,12 @@ ChallengeRay ChallengeSet::ray(const Spacetime& home, std::int64_t k) const {
   const std::int64_t family = k % kinds;
   const PhaseState<double> start = families[static_cast<std::size_t>(family)].start(home, k / kinds);
   return {.ray = {.id = first_id + k, .start = start, .sheet = 1}, .family = family};
+}
+
+Ray ChallengeSet::ray_in(const Spacetime& chart, const Spacetime& home, std::int64_t k) const {
+  const ChallengeRay start = ray(home, k);
+  const ChartState there = change_chart(home, chart, start.ray.start, start.ray.sheet);
+  return {.id = start.ray.id, .start = on_the_cone_again(chart, there.state), .sheet = there.sheet};
 }
 
 const std::vector<ChallengeSet>& challenge_sets() {

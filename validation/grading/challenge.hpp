@@ -46,6 +46,8 @@ struct ChallengeSet {
   [[nodiscard]] std::unique_ptr<Spacetime> spacetime(std::string_view chart) const;
   /// Ray k, counted from 0, in the home chart. It has the id first_id + k.
   [[nodiscard]] ChallengeRay ray(const Spacetime& home, std::int64_t k) const;
+  /// The same in another chart of the spacetime, on the light cone there to round-off.
+  [[nodiscard]] Ray ray_in(const Spacetime& chart, const Spacetime& home, std::int64_t k) const;
 };
 
 /// Ids of one set: this many.

@@ -50,6 +50,11 @@ struct Departing {
 [[nodiscard]] PhaseState<double> medium_ray(const Spacetime& home, double distance, double theta, double phi,
                                             double from_inward, double psi);
 
+/// Light that a chart map has brought off the cone, p_r found anew: p + s dr, so that p_t and the angular momenta stay.
+/// Next to a horizon a chart that is regular for the ray is reached through one that is not, where p_r and phi diverge:
+/// p comes out with the square of 2 M r / Delta times round-off, 1e-9 at the worst here.
+[[nodiscard]] PhaseState<double> on_the_cone_again(const Spacetime& chart, PhaseState<double> y);
+
 /// The named parameter of a spacetime, or the fallback.
 [[nodiscard]] double parameter_of(const Spacetime& spacetime, std::string_view name, double fallback);
 

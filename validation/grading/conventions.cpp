@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
+#include <stdexcept>
 
 #include "metrics/catalogue.hpp"
 #include "metrics/chart_map.hpp"
+#include "metrics/null_cone.hpp"
 
 namespace xpr {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 // Rays looked at: quantiles of 200 and more are good to a few per cent.
 constexpr std::size_t sample_size = 256;
+// Too few to tell a rule from chance.
+constexpr std::size_t fewest = 8;
 
 bool has_angles(const Spacetime& chart) { return chart.card().coordinates[3].kind == CoordinateKind::azimuth; }
 
@@ -150,11 +153,22 @@ std::vector<Convention> listed() {
       {.id = "spin-flipped",
        .says = "the spin is flipped: the hole turns the other way (the sign of a, or of g_tphi)",
        .shows = Quantity::direction,
+       .spin_sign = -1.0,
+       .energy_follows = true},
+      {.id = "spin-flipped",
+       .says = "the spin is flipped: the hole turns the other way (the sign of a, or of g_tphi), for light of the same "
+               "E, L and Q",
+       .shows = Quantity::direction,
        .spin_sign = -1.0},
       {.id = "screen-mirrored",
        .says = "the screen is mirrored left to right (p_phi of the wrong sign at the start)",
        .shows = Quantity::direction,
        .start = mirrored_left_to_right},
+      {.id = "screen-mirrored",
+       .says = "the screen is mirrored left to right (p_phi of the wrong sign at the start, where p_t follows)",
+       .shows = Quantity::direction,
+       .start = mirrored_left_to_right,
+       .energy_follows = true},
       {.id = "screen-upside-down",
        .says = "the screen is mirrored top to bottom (p_theta of the wrong sign at the start)",
        .shows = Quantity::direction,
@@ -205,6 +219,7 @@ bool applies(const Convention& convention, const Examiner& examiner, const HandI
   };
   const bool table_has_angles = has_angles(*examiner.set().spacetime(hand_in.chart));
   if (convention.spin_sign < 0.0) return metric == "kerr";
+  if (convention.energy_follows) return metric == "kerr";  // elsewhere the start stays light
   if (!convention.chart.empty()) return convention.chart != hand_in.chart && chart_exists(convention.chart);
   if (convention.id == "degrees" || convention.id == "theta-from-equator") return table_has_angles;
   if (convention.id == "y-sign") return !spherical;
@@ -236,7 +251,7 @@ class Recognition {
   }
 
   std::vector<ConventionFound> run() {
-    if (sample_.size() < 8) return {};  // too few to tell a rule from chance
+    if (sample_.size() < fewest) return {};
     for (const Quantity shows : {Quantity::direction, Quantity::heading, Quantity::time, Quantity::affine}) {
       look_for(shows);
     }
@@ -259,7 +274,12 @@ class Recognition {
     set.insert(set.end(), more.begin(), more.end());
     const Undoing undoing(examiner_, hand_in_, set);
     std::vector<double> errors;
-    for (const std::size_t k : sample_) errors.push_back(error_of(shows, undoing.compare(k)));
+    for (const std::size_t k : sample_) {
+      const RayScore score = undoing.compare(k);
+      // What ends inside the horizon tells nothing, whatever is undone.
+      if (score.outcome != Outcome::uncompared) errors.push_back(error_of(shows, score));
+    }
+    if (errors.size() < fewest) return pi;
     const auto third_quartile = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() * 3 / 4);
     std::nth_element(errors.begin(), third_quartile, errors.end());
     return *third_quartile;
@@ -337,10 +357,20 @@ Undoing::Undoing(const Examiner& examiner, const HandIn& hand_in, std::vector<co
   bool wrapped = false;
   for (const Convention* convention : undone_) {
     if (!convention->chart.empty()) chart = convention->chart;
-    if (convention->shows == Quantity::swept) wrapped = true;
+    wrapped = wrapped || convention->shows == Quantity::swept;
+    spin_flipped_ = spin_flipped_ || convention->spin_sign < 0.0;
+    energy_follows_ = energy_follows_ || convention->energy_follows;
+    other_rays_ = other_rays_ || spin_flipped_ || convention->start != nullptr;
   }
-  chart_ = examiner.set().spacetime(chart);
-  windings_known_ = !wrapped && chart == examiner.set().home_chart && has_angles(*chart_);
+  const ChallengeSet& set = examiner.set();
+  std::vector<NamedValue> parameters = set.parameters;
+  for (NamedValue& parameter : parameters) {
+    if (spin_flipped_ && parameter.name == "a") parameter.value = -parameter.value;
+  }
+  chart_ = make_spacetime(set.metric, chart, parameters);
+  home_ = make_spacetime(set.metric, set.home_chart, parameters);
+  table_chart_ = set.spacetime(chart);
+  windings_known_ = !wrapped && chart == set.home_chart && has_angles(*chart_);
 }
 
 HandedRay Undoing::end(std::size_t k) const {
@@ -348,33 +378,57 @@ HandedRay Undoing::end(std::size_t k) const {
   for (const Convention* convention : undone_) {
     if (convention->table != nullptr) ray = convention->table(ray, *chart_);
   }
-  ray = examiner_.at_home(ray, *chart_);
+  ray.end = change_chart(*chart_, *home_, ray.end, ray.sheet).state;
   for (const Convention* convention : undone_) {
     if (convention->end != nullptr) ray = convention->end(ray, examiner_.ray(k).ray.start);
   }
   return ray;
 }
 
-RayScore Undoing::compare(std::size_t k) const {
+// The code reads the numbers of its table for what they are not; what it needs to make light of them it finds anew.
+std::optional<PhaseState<double>> Undoing::altered_start(std::size_t k) const {
   PhaseState<double> start = examiner_.ray(k).ray.start;
-  std::vector<NamedValue> parameters = examiner_.set().parameters;
-  bool same = true;
   for (const Convention* convention : undone_) {
-    if (convention->start != nullptr) start = convention->start(start), same = false;
-    if (convention->spin_sign > 0.0) continue;
-    same = false;
-    for (NamedValue& parameter : parameters) {
-      if (parameter.name == "a") parameter.value = -parameter.value;
-    }
+    if (convention->start != nullptr) start = convention->start(start);
   }
-  if (same) return examiner_.compare(start, examiner_.exact(k), end(k), hand_in_.has_status, windings_known_);
+  ChartState read{start};
+  if (spin_flipped_) read = change_chart(examiner_.home(), *table_chart_, start);
+  const Spacetime& there = spin_flipped_ ? *chart_ : *home_;
+  if (energy_follows_) {
+    PhaseState<double>& y = read.state;
+    const auto p = null_momentum(there, y.x(), y.p(), start[4] < 0.0 ? 1.0 : -1.0);
+    if (!p || !((*p)[0] * start[4] > 0.0)) return std::nullopt;
+    y[4] = (*p)[0];
+  }
+  return spin_flipped_ ? change_chart(there, *home_, read.state, read.sheet).state : read.state;
+}
+
+Undoing::Course Undoing::altered_course(std::size_t k) const {
+  std::optional<PhaseState<double>> start = altered_start(k);
+  if (!start) return {{}, negative_energy_ray()};
   try {
-    const auto exact = exact_ray(examiner_.set().metric, parameters, start);
-    return examiner_.compare(start, *exact, end(k), hand_in_.has_status, windings_known_);
+    auto exact = exact_ray(examiner_.set().metric, home_->parameters(), *start);
+    // Light once more: of p_r only the sign was heeded.
+    const ExactEnd begin = has_angles(*home_) ? exact->at((*start)[1], 0) : ExactEnd{};
+    if (begin.reached) (*start)[5] = begin.state[5];
+    return {*start, std::move(exact)};
   } catch (const std::domain_error&) {
-    return {};  // no light starts so: this is not what the code did
+    return {*start, nullptr};  // no light starts so: this is not what the code did
   }
 }
+
+RayScore Undoing::compare(std::size_t k, bool with_conditions) const {
+  const Course other = other_rays_ ? altered_course(k) : Course{};
+  if (other_rays_ && other.exact == nullptr) return {};
+  const ExaminedRay ray = other_rays_ ? ExaminedRay{other.start, *other.exact, *home_} : examiner_.traced(k);
+  const HandedRay handed = end(k);
+  RayScore score = examiner_.compare(ray, handed, hand_in_.has_status, windings_known_);
+  if (with_conditions && score.outcome == Outcome::compared) score.condition = examiner_.conditions(ray, handed.end);
+  return score;
+}
+
+RayScore Undoing::compare(std::size_t k) const { return compare(k, false); }
+RayScore Undoing::score(std::size_t k) const { return compare(k, true); }
 
 std::vector<ConventionFound> recognised_conventions(const Examiner& examiner, const HandIn& hand_in) {
   return Recognition(examiner, hand_in).run();

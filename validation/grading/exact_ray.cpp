@@ -163,6 +163,14 @@ class EllisCourse final : public ExactRay {
   ellis_exact::EllisRay ray_;
 };
 
+class NegativeEnergyCourse final : public ExactRay {
+ public:
+  [[nodiscard]] bool captured() const override { return true; }
+  [[nodiscard]] bool has_closed_form() const override { return false; }
+  [[nodiscard]] int turns_at_end() const override { return 0; }
+  [[nodiscard]] ExactEnd at(double /*radius*/, int /*turns*/) const override { return {}; }
+};
+
 double value_of(const std::vector<NamedValue>& parameters, std::string_view name, double fallback) {
   for (const NamedValue& parameter : parameters) {
     if (parameter.name == name) return parameter.value;
@@ -183,5 +191,7 @@ std::unique_ptr<ExactRay> exact_ray(std::string_view metric, const std::vector<N
   if (metric == "maxwell-fisheye") return fisheye_course(value_of(parameters, "R", 1.0), start);
   throw std::invalid_argument("metric '" + std::string(metric) + "' has no closed form for single rays");
 }
+
+std::unique_ptr<ExactRay> negative_energy_ray() { return std::make_unique<NegativeEnergyCourse>(); }
 
 }  // namespace xpr

@@ -25,6 +25,8 @@ class ExactRay {
   virtual ~ExactRay() = default;
   /// Ends at the horizon.
   [[nodiscard]] virtual bool captured() const = 0;
+  /// Where it is can be said; false for light of negative energy, of which only its end is known.
+  [[nodiscard]] virtual bool has_closed_form() const { return true; }
   /// On which side of a wormhole it ends, +1 or -1; +1 elsewhere.
   [[nodiscard]] virtual int side() const { return 1; }
   /// Radial turning points passed on the way to its end, 0 or 1.
@@ -33,9 +35,13 @@ class ExactRay {
   [[nodiscard]] virtual ExactEnd at(double radius, int turns) const = 0;
 };
 
-/// The ray with this start in the home chart of one of the challenge sets' metrics. Throws std::domain_error for a
-/// start that no light passes, std::invalid_argument for a metric without closed form.
+/// The ray with this start in the home chart of one of the challenge sets' metrics; of p_r its sign counts, its size
+/// follows from the rest. Throws std::domain_error for a start that no light passes, std::invalid_argument for a metric
+/// without closed form.
 [[nodiscard]] std::unique_ptr<ExactRay> exact_ray(std::string_view metric, const std::vector<NamedValue>& parameters,
                                                   const PhaseState<double>& start);
+
+/// Light of energy E <= 0, which there is in an ergosphere only and which falls in.
+[[nodiscard]] std::unique_ptr<ExactRay> negative_energy_ray();
 
 }  // namespace xpr

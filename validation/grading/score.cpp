@@ -10,7 +10,6 @@
 #include <numbers>
 
 #include "core/polar_fold.hpp"
-#include "metrics/chart_map.hpp"
 #include "metrics/coordinates.hpp"
 #include "validation/grading/challenge_starts.hpp"
 
@@ -89,17 +88,18 @@ Direction Examiner::direction(const PhaseState<double>& y) const {
 
 // Along the axes of a static grid's orthonormal frame, as a vector in space: near a pole its components turn, it does
 // not.
-Direction Examiner::heading(const PhaseState<double>& y) const {
+Direction Examiner::heading(const Spacetime& home, const PhaseState<double>& y) const {
   if (!spherical_) return scaled_to_one({y[5], y[6], y[7]});
-  const SymTensor4<double> up = home_->inverse_metric(y.x());
-  const double azimuthal = y[7] == 0.0 ? 0.0 : y[7] / std::sqrt(home_->metric(y.x())(3, 3));
+  const SymTensor4<double> up = home.inverse_metric(y.x());
+  const double azimuthal = y[7] == 0.0 ? 0.0 : y[7] / std::sqrt(home.metric(y.x())(3, 3));
   const double radial = y[5] * std::sqrt(up(1, 1)), polar = y[6] * std::sqrt(up(2, 2));
   const double st = std::sin(y[2]), ct = std::cos(y[2]), sp = std::sin(y[3]), cp = std::cos(y[3]);
   const double along = radial * st + polar * ct;
   return scaled_to_one({along * cp - azimuthal * sp, along * sp + azimuthal * cp, radial * ct - polar * st});
 }
 
-double Examiner::drift(const PhaseState<double>& start, const PhaseState<double>& end) const {
+double Examiner::drift(const ExaminedRay& ray, const PhaseState<double>& end) const {
+  const PhaseState<double>& start = ray.start;
   const double energy = std::abs(start[4]);
   const double least = energy * set_.length_unit;
   const double energy_drift = std::abs(end[4] - start[4]) / energy;
@@ -112,7 +112,7 @@ double Examiner::drift(const PhaseState<double>& start, const PhaseState<double>
                     std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) / std::max(least, std::hypot(a[0], a[1], a[2])));
   }
   const auto third = [&](const PhaseState<double>& y) {
-    if (const auto carter = home_->carter_constant(y)) return *carter;
+    if (const auto carter = ray.home.carter_constant(y)) return *carter;
     const double across = y[7] == 0.0 ? 0.0 : y[7] / std::sin(y[2]);
     return y[6] * y[6] + across * across;
   };
@@ -121,8 +121,9 @@ double Examiner::drift(const PhaseState<double>& start, const PhaseState<double>
                    std::abs(third(end) - carter) / std::max(least * least, std::abs(carter))});
 }
 
-Examiner::Difference Examiner::difference(const ExactEnd& exact, const PhaseState<double>& start,
-                                          const PhaseState<double>& end, double lambda, bool windings_known) const {
+Examiner::Difference Examiner::difference(const ExaminedRay& ray, const ExactEnd& exact, const PhaseState<double>& end,
+                                          double lambda, bool windings_known) const {
+  const PhaseState<double>& start = ray.start;
   Difference out{.error = {}, .windings = nan};
   out.error.fill(nan);
   out.error[at<Quantity::direction>] = angle_between(direction(end), exact.direction);
@@ -136,46 +137,40 @@ Examiner::Difference Examiner::difference(const ExactEnd& exact, const PhaseStat
   out.error[at<Quantity::time>] = std::abs(end[0] - exact.state[0]) / std::max(set_.length_unit, elapsed);
   out.error[at<Quantity::affine>] =
       std::abs(lambda - exact.lambda) / std::max(set_.length_unit / std::abs(start[4]), exact.lambda);
-  out.error[at<Quantity::heading>] = angle_between(heading(end), heading(exact.state));
+  out.error[at<Quantity::heading>] = angle_between(heading(ray.home, end), heading(ray.home, exact.state));
   return out;
 }
 
-Errors Examiner::conditions(std::size_t k, const PhaseState<double>& end) const {
+Errors Examiner::conditions(const ExaminedRay& ray, const PhaseState<double>& end) const {
   Errors most;
   most.fill(1.0);
-  const PhaseState<double>& start = rays_[k].ray.start;
+  const PhaseState<double>& start = ray.start;
   const double radius = length_along(end);
-  const int turns = exact_[k]->turns_at_end();
-  const ExactEnd here = exact_[k]->at(radius, turns);
+  const int turns = ray.exact.turns_at_end();
+  const ExactEnd here = ray.exact.at(radius, turns);
   if (!here.reached) return most;
   // Far above the closed form's rounding (1e-15), far below the least distance of a ray from the critical ones (5e-6).
   constexpr double step = 1e-8;
   const double by = step * set_.length_unit;
   const auto take = [&](const ExactEnd& there) {
     if (!there.reached) return;
-    const Errors moved = difference(here, start, there.state, there.lambda, false).error;
+    const Errors moved = difference(ray, here, there.state, there.lambda, false).error;
     for (std::size_t q = 0; q < conditioned_quantities; ++q) {
       if (moved[q] > most[q] * step) most[q] = moved[q] / step;
     }
   };
-  take(exact_[k]->at(radius + by, turns));
+  take(ray.exact.at(radius + by, turns));
   const double energy = std::abs(start[4]);
   for (std::size_t index = 0; index < (spherical_ ? 2 : 3); ++index) {
     const PhaseState<double> near =
-        spherical_ ? nudged(*home_, start, 6 + index, by * energy) : turned(start, index, step * energy);
+        spherical_ ? nudged(ray.home, start, 6 + index, by * energy) : turned(start, index, step * energy);
     try {
-      take(exact_ray(set_.metric, set_.parameters, near)->at(radius, turns));
+      take(exact_ray(set_.metric, ray.home.parameters(), near)->at(radius, turns));
     } catch (const std::domain_error&) {
       continue;  // a start at the edge of where light goes has no neighbour on that side
     }
   }
   return most;
-}
-
-HandedRay Examiner::at_home(const HandedRay& ray, const Spacetime& chart) const {
-  HandedRay out = ray;
-  out.end = change_chart(chart, *home_, ray.end, ray.sheet).state;
-  return out;
 }
 
 Status Examiner::status_of(const HandedRay& end, bool has_status) const {
@@ -212,8 +207,8 @@ ExactEnd Examiner::counterpart(const ExactRay& exact, Outcome outcome, const Pha
   return angle_between(first.direction, n) < angle_between(last.direction, n) ? first : last;
 }
 
-RayScore Examiner::compare(const PhaseState<double>& start, const ExactRay& exact, const HandedRay& handed,
-                           bool has_status, bool windings_known) const {
+RayScore Examiner::compare(const ExaminedRay& ray, const HandedRay& handed, bool has_status,
+                           bool windings_known) const {
   RayScore score;
   score.error.fill(nan);
   score.condition.fill(1.0);
@@ -221,19 +216,21 @@ RayScore Examiner::compare(const PhaseState<double>& start, const ExactRay& exac
   PhaseState<double> end = handed.end;
   if (spherical_ && finite_event(end)) fold_polar_angle(end, 2, 3);
   score.status = has_status || finite_event(end) ? status_of(handed, has_status) : Status::not_finite;
-  score.outcome = outcome_of(exact, score.status, end);
+  score.outcome = outcome_of(ray.exact, score.status, end);
   if (score.outcome != Outcome::compared && score.outcome != Outcome::unfinished) return score;
-  const ExactEnd there = counterpart(exact, score.outcome, end);
+  const ExactEnd there = counterpart(ray.exact, score.outcome, end);
   if (!there.reached) {
-    if (score.outcome == Outcome::compared) score.outcome = Outcome::off_the_ray;
+    if (score.outcome == Outcome::compared) {
+      score.outcome = ray.exact.has_closed_form() ? Outcome::off_the_ray : Outcome::uncompared;
+    }
     return score;
   }
-  const Difference apart = difference(there, start, end, handed.lambda, windings_known);
+  const Difference apart = difference(ray, there, end, handed.lambda, windings_known);
   score.error = apart.error;
   score.windings = apart.windings;
   score.position = 2.0 * home_->radius(end.x()) * std::sin(0.5 * score.error[at<Quantity::direction>]);
-  score.error[at<Quantity::conserved>] = drift(start, end);
-  score.error[at<Quantity::null>] = home_->null_residual(end);
+  score.error[at<Quantity::conserved>] = drift(ray, end);
+  score.error[at<Quantity::null>] = ray.home.null_residual(end);
   score.truth_error = there.direction_error;
   return score;
 }

@@ -48,7 +48,7 @@ using Errors = std::array<double, quantity_count>;
 /// What became of a row.
 enum class Outcome {
   compared,      ///< right status; the errors say the rest
-  uncompared,    ///< right status, at or inside the horizon, where closed forms end
+  uncompared,    ///< captured as it should be, where closed forms end: at or inside the horizon, or with E <= 0
   wrong_status,  ///< captured for escaped, the other side of a wormhole, or the other way round
   unfinished,    ///< a status that is no end: max_steps, step_underflow and the like; or still on its way
   not_finite,    ///< nan or inf in the event
@@ -73,6 +73,13 @@ struct RayScore {
   [[nodiscard]] double scaled(std::size_t quantity) const;
 };
 
+/// What a code is taken to have traced: a start in the home chart of a spacetime, and its exact course.
+struct ExaminedRay {
+  PhaseState<double> start;
+  const ExactRay& exact;
+  const Spacetime& home;
+};
+
 /// A set's first rays with their exact courses, ready to be compared with. Immutable but for its use of threads.
 class Examiner {
  public:
@@ -84,27 +91,26 @@ class Examiner {
   [[nodiscard]] const ChallengeRay& ray(std::size_t k) const { return rays_[k]; }
   [[nodiscard]] const ExactRay& exact(std::size_t k) const { return *exact_[k]; }
 
-  /// An end in the home chart against the exact course from a start, without conditions. `windings_known`: phi counts
-  /// its turns.
-  [[nodiscard]] RayScore compare(const PhaseState<double>& start, const ExactRay& exact, const HandedRay& end,
-                                 bool has_status, bool windings_known) const;
-  /// The conditions of ray k at that end.
-  [[nodiscard]] Errors conditions(std::size_t k, const PhaseState<double>& end) const;
+  /// Ray k as it should be traced.
+  [[nodiscard]] ExaminedRay traced(std::size_t k) const { return {rays_[k].ray.start, *exact_[k], *home_}; }
 
-  /// A handed-in end in the home chart.
-  [[nodiscard]] HandedRay at_home(const HandedRay& ray, const Spacetime& chart) const;
+  /// An end in the home chart against the exact course, without conditions. `windings_known`: phi counts its turns.
+  [[nodiscard]] RayScore compare(const ExaminedRay& ray, const HandedRay& end, bool has_status,
+                                 bool windings_known) const;
+  /// The conditions of a ray at that end.
+  [[nodiscard]] Errors conditions(const ExaminedRay& ray, const PhaseState<double>& end) const;
 
  private:
   struct Difference {
     Errors error;
     double windings;
   };
-  [[nodiscard]] Difference difference(const ExactEnd& exact, const PhaseState<double>& start,
-                                      const PhaseState<double>& end, double lambda, bool windings_known) const;
+  [[nodiscard]] Difference difference(const ExaminedRay& ray, const ExactEnd& exact, const PhaseState<double>& end,
+                                      double lambda, bool windings_known) const;
   [[nodiscard]] double length_along(const PhaseState<double>& y) const;
   [[nodiscard]] Direction direction(const PhaseState<double>& y) const;
-  [[nodiscard]] Direction heading(const PhaseState<double>& y) const;
-  [[nodiscard]] double drift(const PhaseState<double>& start, const PhaseState<double>& end) const;
+  [[nodiscard]] Direction heading(const Spacetime& home, const PhaseState<double>& y) const;
+  [[nodiscard]] double drift(const ExaminedRay& ray, const PhaseState<double>& end) const;
   [[nodiscard]] Status status_of(const HandedRay& end, bool has_status) const;
   [[nodiscard]] ExactEnd counterpart(const ExactRay& exact, Outcome outcome, const PhaseState<double>& end) const;
   [[nodiscard]] Outcome outcome_of(const ExactRay& exact, Status status, const PhaseState<double>& end) const;
