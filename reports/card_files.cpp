@@ -6,6 +6,7 @@
 
 #include "core/io/hdf5_file.hpp"
 #include "integrators/status.hpp"
+#include "reports/origin.hpp"
 #include "reports/text.hpp"
 
 namespace xpr {
@@ -77,17 +78,7 @@ void write_card_h5(const CardInputs& inputs, const std::filesystem::path& path) 
     file.set_attribute(group, "grade_undone", to_string(card.undone.grade));
     file.set_attribute(group, "main", std::int64_t{&card == &inputs.main_card() ? 1 : 0});
   }
-  const Provenance& from = inputs.provenance;
-  file.make_group("/provenance");
-  file.set_attribute("/provenance", "version", from.version);
-  file.set_attribute("/provenance", "commit", from.commit + (from.dirty ? " with changes that are not committed" : ""));
-  file.set_attribute("/provenance", "compiler", from.compiler);
-  file.set_attribute("/provenance", "command", inputs.command);
-  file.set_attribute("/provenance", "configuration", inputs.configuration.dump(2));
-  file.make_group("/volatile");
-  file.set_attribute("/volatile", "date", from.date);
-  file.set_attribute("/volatile", "cpu", from.cpu);
-  file.set_attribute("/volatile", "flags", from.flags);
+  write_origin(file, {inputs.provenance, inputs.command, inputs.configuration, {}});
   file.set_attribute("/volatile", "seconds", inputs.seconds);
   file.close();
 }

@@ -12,7 +12,12 @@ std::string parameters_text(const ChallengeSet& set) {
   return text.empty() ? "no parameters" : text;
 }
 
-std::string line(std::string_view what, const std::string& says) { return fmt::format("| {} | {} |\n", what, says); }
+/// A row of a Markdown table; a | in it does not end the cell.
+std::string line(std::string_view what, std::string_view says) {
+  std::string text = fmt::format("| {} | ", what);
+  for (const char c : says) text += c == '|' ? "\\|" : std::string(1, c);
+  return text + " |\n";
+}
 
 bool has_azimuth(const Card& card) { return card.coordinates[3].kind == CoordinateKind::azimuth; }
 
@@ -101,7 +106,7 @@ std::string convention_sheet(const ChallengeSet& set, const std::string& chart, 
   text += fmt::format("\nThis program's own rays, to compare with:\n\n    {}\n",
                       trace_command(set, chart, table, "mine.csv"));
   text += "\n## The rays\n\n| family | |\n| --- | --- |\n";
-  for (const RayFamily& family : set.families) text += line(family.name, std::string(family.what));
+  for (const RayFamily& family : set.families) text += line(family.name, family.what);
   text += fmt::format("\nRay k (from 0) belongs to family k modulo {}.\n", set.families.size());
   return text;
 }

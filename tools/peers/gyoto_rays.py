@@ -87,18 +87,20 @@ class Gyoto:
         sense = 1 if velocity[0] > 0.0 else -1
         photon.setInitCoord(np.concatenate([x, sense * velocity]), sense)
         begin = time.process_time()
+        stopped = False
         reach = 1.2 * (self._challenge.r_max + self.radius(x[None])[0]) + 20.0
         try:
             for _ in range(12):
                 photon.xFill(x[0] + sense * reach)
                 path = self._path(sense)
                 r = self.radius(path[0])
-                if r[-1] >= self._challenge.r_max or abs(path[0][-1, 0] - x[0]) < 0.999 * reach:
+                stopped = abs(path[0][-1, 0] - x[0]) < 0.999 * reach
+                if r[-1] >= self._challenge.r_max or stopped:
                     break
                 reach *= 2.0
         except self._gyoto.core.Error:
             return End("step_underflow", seconds=time.process_time() - begin)
-        return self._end(path, sense, x, p, time.process_time() - begin)
+        return self._end(path, stopped, sense, x, p, time.process_time() - begin)
 
     def _path(self, sense):
         """(x, dx/dlambda, lambda) along the ray: GYOTO stores it by rising time."""
@@ -112,14 +114,15 @@ class Gyoto:
         affine = np.array([tau[k] for k in range(count)])
         return x.T[::sense], v.T[::sense], affine[::sense]
 
-    def _end(self, path, sense, start, p, seconds):
+    def _end(self, path, stopped, sense, start, p, seconds):
         x, v, affine = path
         r = self.radius(x)
         outside = np.flatnonzero((r >= self._challenge.r_max) & (np.arange(len(r)) > 0))
         last = outside[0] if outside.size else len(r) - 1
         status = "escaped" if outside.size else "max_steps"
-        # GYOTO stops by itself a little outside the horizon, KerrKS a little sooner than KerrBL.
-        if self._has_hole and not outside.size and r[last] < 1.2 * self._challenge.horizon:
+        # GYOTO stops by itself next to the horizon and keeps no step that comes too close: KerrKS's last one may be
+        # well outside.
+        if self._has_hole and stopped and not outside.size and r[last] < 2.0 * self._challenge.horizon:
             status = "captured"
         end = x[last].copy()
         if self._spherical:
