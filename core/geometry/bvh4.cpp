@@ -1,6 +1,7 @@
 #include "core/geometry/bvh4.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace xpr {
@@ -28,19 +29,30 @@ struct Binning {
   }
 };
 
+/// The nearest single-precision number that is not above x, or not below it.
+[[nodiscard]] float below(double x) {
+  const auto f = static_cast<float>(x);
+  return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+}
+[[nodiscard]] float above(double x) { return -below(-x); }
+
 }  // namespace
 
-ThickLine::ThickLine(const Vec3& origin, const Vec3& direction, double longest, double margin) : t_max(longest) {
+ThickLine Bvh4::line(const Vec3& origin, const Vec3& direction, double t_max, double margin) const {
   constexpr double least = 1e-200;  // below it a direction counts as zero: 0 / 0 would be neither in nor out
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double d = direction[axis];
-    const double inv = std::fabs(d) > least ? 1.0 / d : std::copysign(1.0 / least, d);
-    const bool backwards = inv < 0.0;
-    near[axis] = 2 * axis + (backwards ? 1 : 0);
-    inverse[axis] = inv;
-    near_origin[axis] = origin[axis] + (backwards ? -margin : margin);
-    far_origin[axis] = origin[axis] + (backwards ? margin : -margin);
-  }
+  const Vec3 from = local(origin);
+  const double thick = scale_ * margin;
+  const auto inverse = [&](std::size_t axis) {
+    const double d = scale_ * direction[axis];
+    return std::fabs(d) > least ? 1.0 / d : std::copysign(1.0 / least, d);
+  };
+  const std::array<double, 3> by{inverse(0), inverse(1), inverse(2)};
+  const auto shift = [&](std::size_t axis) { return by[axis] < 0.0 ? -thick : thick; };
+  return {.near = {by[0] < 0.0 ? 1U : 0U, by[1] < 0.0 ? 3U : 2U, by[2] < 0.0 ? 5U : 4U},
+          .near_origin = {from.x + shift(0), from.y + shift(1), from.z + shift(2)},
+          .far_origin = {from.x - shift(0), from.y - shift(1), from.z - shift(2)},
+          .inverse = {by[0], by[1], by[2]},
+          .t_max = t_max};
 }
 
 /// Grows a tree of two children a node over ranges of `order_`, then folds it.
@@ -51,7 +63,10 @@ class Bvh4Builder {
     centres_.reserve(boxes.size());
     for (const Box3& box : boxes) centres_.push_back(box.centre());
     const std::uint32_t root = grow(0, static_cast<std::uint32_t>(boxes.size()), 0);
-    tree_.bounds_ = twos_[root].box;
+    const Box3& all = tree_.bounds_ = twos_[root].box;
+    tree_.centre_ = all.centre();
+    const double half = 0.5 * largest_magnitude(all.hi - all.lo);
+    if (half > 0.0) tree_.scale_ = std::ldexp(1.0, -std::ilogb(half) - 1);
     fold(root);
   }
 
@@ -154,12 +169,13 @@ class Bvh4Builder {
       children[widest] = twos_[children[widest]].left;
     }
     for (std::size_t k = 0; k < 4; ++k) {
-      const Box3 box = k < count ? twos_[children[k]].box : Box3{};
+      Box3 box;
+      if (k < count) box = {tree_.local(twos_[children[k]].box.lo), tree_.local(twos_[children[k]].box.hi)};
       const std::uint32_t child = k < count ? child_of(children[k]) : Bvh4::no_item;
       Bvh4::Node& node = tree_.nodes_[index];
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        set_lane(node.planes[2 * axis], static_cast<int>(k), box.lo[axis]);
-        set_lane(node.planes[2 * axis + 1], static_cast<int>(k), box.hi[axis]);
+        node.planes[2 * axis][k] = below(box.lo[axis]);
+        node.planes[2 * axis + 1][k] = above(box.hi[axis]);
       }
       node.child[k] = child;
     }

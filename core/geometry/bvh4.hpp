@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,15 +18,13 @@
 
 namespace xpr {
 
-/// The points a + t (b - a) or o + t d for 0 <= t <= t_max, and all within `margin` of them along each axis.
+/// o + t d for 0 <= t <= t_max, thickened along each axis, in a tree's own frame.
 struct ThickLine {
-  ThickLine(const Vec3& origin, const Vec3& direction, double longest, double margin);
-
   std::array<std::size_t, 3> near{};   ///< which of a node's planes is met first: 2 axis or 2 axis + 1
   std::array<Pack<4>, 3> near_origin;  ///< origin, moved by the margin so that boxes seem larger
   std::array<Pack<4>, 3> far_origin;
   std::array<Pack<4>, 3> inverse;  ///< 1 / direction; +-1e200 for directions that vanish
-  double t_max;                    ///< may shrink while the walk goes on
+  double t_max = 0.0;              ///< may shrink while the walk goes on
 };
 
 class Bvh4 {
@@ -46,10 +45,14 @@ class Bvh4 {
   [[nodiscard]] std::size_t node_count() const { return nodes_.size(); }
   [[nodiscard]] const Box3& bounds() const { return bounds_; }
 
+  /// The line origin + t direction, 0 <= t <= t_max, and all points within `margin` of it along each axis.
+  [[nodiscard]] ThickLine line(const Vec3& origin, const Vec3& direction, double t_max, double margin) const;
+
   /// Calls on_leaf(leaf's number, line) for every leaf whose boxes the line meets, nearer ones first as well as boxes
-  /// can tell. on_leaf may shorten line.t_max. Returns how many nodes were looked at.
-  template <class OnLeaf>
-  std::size_t walk(ThickLine& line, const OnLeaf& on_leaf) const;
+  /// can tell. on_leaf may shorten line.t_max. Returns how many nodes were looked at. Where it is given, `data` is what
+  /// on_leaf will read first: one element a leaf, asked for from memory as soon as the leaf is seen.
+  template <class OnLeaf, class Data = char>
+  std::size_t walk(ThickLine& line, const OnLeaf& on_leaf, const Data* data = nullptr) const;
 
   /// Calls on_leaf(leaf's number) for every leaf with a box nearer than the limit to the point, by the square of the
   /// distance, nearer ones first; on_leaf returns the new limit.
@@ -62,35 +65,59 @@ class Bvh4 {
   static constexpr std::size_t most_levels = 80;
   static constexpr std::size_t stack_size = 3 * most_levels + 4;
   static constexpr std::uint32_t leaf_bit = 0x80000000U;
+  static constexpr double most = 1e300;  ///< less than the infinity that stands for a miss
 
-  struct Node {
-    std::array<Pack<4>, 6> planes;       ///< lo.x, hi.x, lo.y, hi.y, lo.z, hi.z of four boxes
-    std::array<std::uint32_t, 4> child;  ///< a node, a leaf with leaf_bit, or none
+  struct alignas(64) Node {
+    std::array<std::array<float, 4>, 6> planes;  ///< lo.x, hi.x, lo.y, hi.y, lo.z, hi.z of four boxes
+    std::array<std::uint32_t, 4> child;          ///< a node, a leaf with leaf_bit, or none
+
+    [[nodiscard, gnu::always_inline]] Pack<4> plane(std::size_t which) const {
+#if defined(__AVX__)
+      return Pack<4>::wrap(reinterpret_cast<Pack<4>::Register>(_mm256_cvtps_pd(_mm_load_ps(planes[which].data()))));
+#else
+      Pack<4> out;
+      for (int k = 0; k < 4; ++k) set_lane(out, k, static_cast<double>(planes[which][static_cast<std::size_t>(k)]));
+      return out;
+#endif
+    }
   };
   struct Visit {
     double t;
     std::uint32_t child;
   };
 
-  /// Puts what is met on the stack, the nearest last.
-  static void put(std::array<Visit, stack_size>& stack, std::size_t& top, const Node& node,
-                  const std::array<double, 4>& t, double limit) {
+  /// Puts what is met on the stack, the nearest last, and asks for it from memory.
+  template <class Data>
+  void put(std::array<Visit, stack_size>& stack, std::size_t& top, const Node& node, const Pack<4>& entry, double limit,
+           const Data* data) const {
+    const auto t = std::bit_cast<std::array<double, 4>>(entry);
     const std::size_t begin = top;
     for (std::size_t k = 0; k < 4; ++k) {
       if (!(t[k] <= limit)) continue;
+      const std::uint32_t child = node.child[k];
+      if ((child & leaf_bit) == 0) {
+        __builtin_prefetch(&nodes_[child]);
+      } else if (data != nullptr) {
+        __builtin_prefetch(data + (child & ~leaf_bit));
+      }
       std::size_t place = top++;
       for (; place > begin && stack[place - 1].t < t[k]; --place) stack[place] = stack[place - 1];
-      stack[place] = {t[k], node.child[k]};
+      stack[place] = {t[k], child};
     }
   }
+
+  /// A point in the tree's frame, where boxes lie within about [-1, 1].
+  [[nodiscard]] Vec3 local(const Vec3& p) const { return scale_ * (p - centre_); }
 
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;
   Box3 bounds_;
+  Vec3 centre_;
+  double scale_ = 1.0;  ///< a power of two
 };
 
-template <class OnLeaf>
-std::size_t Bvh4::walk(ThickLine& line, const OnLeaf& on_leaf) const {
+template <class OnLeaf, class Data>
+std::size_t Bvh4::walk(ThickLine& line, const OnLeaf& on_leaf, const Data* data) const {
   if (nodes_.empty()) return 0;
   std::array<Visit, stack_size> stack;
   stack[0] = {0.0, 0};
@@ -105,16 +132,16 @@ std::size_t Bvh4::walk(ThickLine& line, const OnLeaf& on_leaf) const {
     const Node& node = nodes_[visit.child];
     ++looked_at;
     const auto entry = [&](std::size_t axis) {
-      return (node.planes[line.near[axis]] - line.near_origin[axis]) * line.inverse[axis];
+      return (node.plane(line.near[axis]) - line.near_origin[axis]) * line.inverse[axis];
     };
     const auto exit = [&](std::size_t axis) {
-      return (node.planes[line.near[axis] ^ 1U] - line.far_origin[axis]) * line.inverse[axis];
+      return (node.plane(line.near[axis] ^ 1U) - line.far_origin[axis]) * line.inverse[axis];
     };
     const Pack<4> in = max(max(entry(0), entry(1)), max(entry(2), Pack<4>(0.0)));
     const Pack<4> out = min(min(exit(0), exit(1)), min(exit(2), Pack<4>(line.t_max)));
-    std::array<double, 4> t;
-    select(in <= out, in, Pack<4>(Box3::infinity)).store(t.data());
-    put(stack, top, node, t, std::min(line.t_max, 1e300));
+    const Mask<4> met = in <= out;
+    if (!any(met)) continue;
+    put(stack, top, node, select(met, in, Pack<4>(Box3::infinity)), std::min(line.t_max, most), data);
   }
   return looked_at;
 }
@@ -122,12 +149,14 @@ std::size_t Bvh4::walk(ThickLine& line, const OnLeaf& on_leaf) const {
 template <class OnLeaf>
 void Bvh4::walk_from(const Vec3& point, double limit_squared, const OnLeaf& on_leaf) const {
   if (nodes_.empty()) return;
+  const Vec3 there = local(point);
+  const double unit = scale_ * scale_;
   std::array<Visit, stack_size> stack;
   stack[0] = {0.0, 0};
   std::size_t top = 1;
   while (top > 0) {
     const Visit visit = stack[--top];
-    if (visit.t > limit_squared) continue;
+    if (visit.t > unit * limit_squared) continue;
     if ((visit.child & leaf_bit) != 0) {
       limit_squared = on_leaf(visit.child & ~leaf_bit);
       continue;
@@ -135,13 +164,11 @@ void Bvh4::walk_from(const Vec3& point, double limit_squared, const OnLeaf& on_l
     const Node& node = nodes_[visit.child];
     Pack<4> squared = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Pack<4> p = point[axis];
-      const Pack<4> outside = max(max(node.planes[2 * axis] - p, p - node.planes[2 * axis + 1]), Pack<4>(0.0));
+      const Pack<4> p = there[axis];
+      const Pack<4> outside = max(max(node.plane(2 * axis) - p, p - node.plane(2 * axis + 1)), Pack<4>(0.0));
       squared += outside * outside;
     }
-    std::array<double, 4> t;
-    squared.store(t.data());
-    put(stack, top, node, t, std::min(limit_squared, 1e300));
+    put(stack, top, node, squared, std::min(unit * limit_squared, most), static_cast<const char*>(nullptr));
   }
 }
 

@@ -53,7 +53,7 @@ class BvhGeometry final : public SceneGeometry {
       return {};
     }
     const RaySegment segment = enclosing_segment(path);
-    ThickLine line(segment.a, segment.b - segment.a, 1.0, segment.radius + around);
+    ThickLine line = over_instances_.line(segment.a, segment.b - segment.a, 1.0, segment.radius + around);
     Found found;
     walk_instances(line, counts, [&](std::uint32_t instance, ThickLine&) {
       const Placed& one = placed()[instance];
@@ -66,7 +66,7 @@ class BvhGeometry final : public SceneGeometry {
   }
 
   [[nodiscard]] Found find(const StraightRay& ray, GeometryCounts& counts) const override {
-    ThickLine line(ray.origin, ray.direction, ray.t_max, margin(largest_magnitude(ray.origin)));
+    ThickLine line = over_instances_.line(ray.origin, ray.direction, ray.t_max, margin(largest_magnitude(ray.origin)));
     Found found;
     walk_instances(line, counts, [&](std::uint32_t instance, ThickLine& walked) {
       const Placed& one = placed()[instance];
@@ -86,6 +86,7 @@ class BvhGeometry final : public SceneGeometry {
 
   template <class Visit>
   void walk_instances(ThickLine& line, GeometryCounts& counts, const Visit& visit) const {
+    if (instances_.size() == 1) return visit(instances_[0], line);
     counts.nodes += over_instances_.walk(line, [&](std::uint32_t leaf, ThickLine& walked) {
       const Bvh4::Leaf& items = over_instances_.leaves()[leaf];
       for (std::uint32_t k = 0; k < items.count; ++k) visit(instances_[items.items[k]], walked);
@@ -161,7 +162,7 @@ class ReferenceGeometry final : public SceneGeometry {
         Corners<double> corners;
         for (std::size_t k = 0; k < 3; ++k) {
           const Vec3& p = one.mesh->vertices[one.mesh->triangles[t][k]];
-          corners[k] = {p.x, p.y, p.z};
+          corners[k] = {p[there.right], p[there.up], p[there.along]};
         }
         const double at = ray_parameter(there, corners);
         if (at <= ray.t_max) found.take({at, i, t, Contact::crossing});

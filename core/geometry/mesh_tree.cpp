@@ -12,6 +12,18 @@ namespace {
 using Four = Pack<4>;
 using Four3 = std::array<Four, 3>;
 
+[[nodiscard, gnu::always_inline]] inline Four of(double a, double b, double c, double d) {
+  if constexpr (registers::native_lanes >= 4) {
+    return Four::wrap(Four::Register{a, b, c, d});
+  } else {
+    Four out;
+    set_lane(out, 0, a);
+    set_lane(out, 1, b);
+    set_lane(out, 2, c);
+    set_lane(out, 3, d);
+    return out;
+  }
+}
 [[nodiscard]] Four absolute(const Four& a) { return max(a, -a); }
 [[nodiscard]] Four largest(const Four3& a) { return max(max(absolute(a[0]), absolute(a[1])), absolute(a[2])); }
 [[nodiscard]] Four sum_of_magnitudes(const Four3& a) { return absolute(a[0]) + absolute(a[1]) + absolute(a[2]); }
@@ -40,31 +52,44 @@ MeshTree::MeshTree(const TriangleMesh& mesh) : mesh_(&mesh) {
   tree_ = Bvh4(boxes);
   blocks_.reserve(tree_.leaves().size());
   double sizes = 0.0;
+  std::vector<std::uint32_t> place(mesh.vertices.size(), Bvh4::no_item);
   for (const Bvh4::Leaf& leaf : tree_.leaves()) {
     Block& block = blocks_.emplace_back();
-    block.count = leaf.count;
     Box3 around;
     for (std::size_t k = 0; k < 4; ++k) {
       block.triangle[k] = leaf.items[std::min<std::size_t>(k, leaf.count - 1)];
       around.add(boxes[block.triangle[k]]);
-      const std::array<Vec3, 3> corners = mesh.corners(block.triangle[k]);
       for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          set_lane(block.corners[i][axis], static_cast<int>(k), corners[i][axis]);
+        const std::uint32_t vertex = mesh.triangles[block.triangle[k]][i];
+        if (place[vertex] == Bvh4::no_item) {
+          place[vertex] = static_cast<std::uint32_t>(vertices_.size());
+          const Vec3& p = mesh.vertices[vertex];
+          vertices_.push_back({p.x, p.y, p.z});
         }
+        block.corner[i][k] = place[vertex];
       }
     }
     sizes += length(around.hi - around.lo);
   }
-  // By trial, see docs/performance.md: half as much or twice as much changes little.
-  constexpr double share_of_leaf = 0.25;
+  // By trial (docs/performance.md): thicker pieces meet more triangles, thinner ones are more pieces.
+  constexpr double share_of_leaf = 0.02;
   if (!blocks_.empty()) thin_ = share_of_leaf * sizes / static_cast<double>(blocks_.size());
+}
+
+[[gnu::always_inline]] inline Corners<Pack<4>> MeshTree::corners(const Block& block, std::size_t first,
+                                                                 std::size_t second, std::size_t third) const {
+  const auto corner = [&](const std::array<std::uint32_t, 4>& at) {
+    const auto &a = vertices_[at[0]], &b = vertices_[at[1]], &c = vertices_[at[2]], &d = vertices_[at[3]];
+    return std::array<Four, 3>{of(a[first], b[first], c[first], d[first]),
+                               of(a[second], b[second], c[second], d[second]),
+                               of(a[third], b[third], c[third], d[third])};
+  };
+  return {corner(block.corner[0]), corner(block.corner[1]), corner(block.corner[2])};
 }
 
 /// True in lanes whose triangle the capsule around ab is not near to: on one side of its plane, or beyond an edge in
 /// it. Both are linear, so that ends and radius bound them; rounding of the normal is relative to the sides' product.
-Mask<4> MeshTree::apart(const Block& block, const Vec3& a, const Vec3& b, double radius, double rounding) {
-  const Corners<Four>& v = block.corners;
+Mask<4> MeshTree::apart(const Corners<Four>& v, const Vec3& a, const Vec3& b, double radius, double rounding) {
   const Four3 first = minus(v[1], v[0]), second = minus(v[2], v[0]);
   const Four3 normal = outer(first, second);
   const Four sides = largest(first) * largest(second);
@@ -123,21 +148,25 @@ struct MeshTree::Search {
     ++counts.pieces;
     const Vec3 chord = segment.b - segment.a;
     const bool ordered = advances(piece.path, chord);
-    ThickLine line(segment.a, chord, 1.0, segment.radius + 8.0 * rounding);
-    counts.nodes += mesh.tree_.walk(line, [&](std::uint32_t leaf, ThickLine& walked) {
-      const Block& block = mesh.blocks_[leaf];
-      const Mask<4> away = apart(block, segment.a, segment.b, segment.radius, rounding);
-      if (all(away)) return;
-      const double before = best.parameter;
-      for (std::uint32_t k = 0; k < block.count; ++k) {
-        if (!lane(away, static_cast<int>(k))) test(block.triangle[k]);
-      }
-      // Where the piece goes forward along its chord, what lies farther along than the best hit on it comes later.
-      if (ordered && best.parameter < before && best.parameter <= piece.hi) {
-        const double come = dot(point(path, best.parameter) - segment.a, chord) / dot(chord, chord);
-        walked.t_max = std::min(walked.t_max, come + 8.0 * rounding / length(chord));
-      }
-    });
+    ThickLine line = mesh.tree_.line(segment.a, chord, 1.0, segment.radius + 8.0 * rounding);
+    counts.nodes += mesh.tree_.walk(
+        line,
+        [&](std::uint32_t leaf, ThickLine& walked) {
+          const Block& block = mesh.blocks_[leaf];
+          const Mask<4> away = apart(mesh.corners(block, 0, 1, 2), segment.a, segment.b, segment.radius, rounding);
+          if (all(away)) return;
+          const double before = best.parameter;
+          for (std::size_t k = 0; k < 4; ++k) {
+            const bool repeated = k > 0 && block.triangle[k] == block.triangle[k - 1];
+            if (!repeated && !lane(away, static_cast<int>(k))) test(block.triangle[k]);
+          }
+          // Where the piece goes forward along its chord, what lies farther along than the best hit on it comes later.
+          if (ordered && best.parameter < before && best.parameter <= piece.hi) {
+            const double come = dot(point(path, best.parameter) - segment.a, chord) / dot(chord, chord);
+            walked.t_max = std::min(walked.t_max, come + 8.0 * rounding / length(chord));
+          }
+        },
+        mesh.blocks_.data());
   }
 
   void test(std::uint32_t triangle) {
@@ -160,21 +189,24 @@ MeshTree::Nearest MeshTree::first_on(const RayPath& path, double rounding, doubl
 MeshTree::Nearest MeshTree::first_on(const StraightRay& ray, double rounding, GeometryCounts& counts) const {
   Nearest best;
   const ShearedRay sheared(ray);
-  ThickLine line(ray.origin, ray.direction, ray.t_max, 8.0 * rounding);
-  counts.nodes += tree_.walk(line, [&](std::uint32_t leaf, ThickLine& walked) {
-    const Block& block = blocks_[leaf];
-    counts.triangles += block.count;
-    const Four t = ray_parameter(sheared, block.corners);
-    if (!any(t <= Four(walked.t_max))) return;
-    for (std::uint32_t k = 0; k < block.count; ++k) {
-      const double at = lane(t, static_cast<int>(k));
-      // Beyond t_max, and infinite where t_max is.
-      if (!(at <= walked.t_max) || at == Box3::infinity) continue;
-      if (at == best.parameter && block.triangle[k] > best.triangle) continue;
-      best = {at, block.triangle[k], Contact::crossing};
-      walked.t_max = at;
-    }
-  });
+  ThickLine line = tree_.line(ray.origin, ray.direction, ray.t_max, 8.0 * rounding);
+  counts.nodes += tree_.walk(
+      line,
+      [&](std::uint32_t leaf, ThickLine& walked) {
+        const Block& block = blocks_[leaf];
+        counts.triangles += 4;
+        const Four t = ray_parameter(sheared, corners(block, sheared.right, sheared.up, sheared.along));
+        if (!any(t <= Four(walked.t_max))) return;
+        for (std::size_t k = 0; k < 4; ++k) {
+          const double at = lane(t, static_cast<int>(k));
+          // Beyond t_max, and infinite where t_max is.
+          if (!(at <= walked.t_max) || at == Box3::infinity) continue;
+          if (at == best.parameter && block.triangle[k] > best.triangle) continue;
+          best = {at, block.triangle[k], Contact::crossing};
+          walked.t_max = at;
+        }
+      },
+      blocks_.data());
   return best;
 }
 

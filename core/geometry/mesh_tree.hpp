@@ -32,20 +32,24 @@ class MeshTree {
   [[nodiscard]] const Bvh4& tree() const { return tree_; }
 
  private:
-  /// Four triangles of a leaf; a leaf with fewer repeats its last.
-  struct Block {
-    Corners<Pack<4>> corners;
+  /// Four triangles of a leaf, in one line of the cache; a leaf with fewer repeats its last.
+  struct alignas(64) Block {
+    std::array<std::array<std::uint32_t, 4>, 3> corner{};  ///< of vertices_
     std::array<std::uint32_t, 4> triangle{};
-    std::uint32_t count = 0;
   };
   struct Search;
 
-  [[nodiscard]] static Mask<4> apart(const Block& block, const Vec3& a, const Vec3& b, double radius, double rounding);
+  /// The corners of a block, their axes in the order asked for.
+  [[nodiscard]] Corners<Pack<4>> corners(const Block& block, std::size_t first, std::size_t second,
+                                         std::size_t third) const;
+  [[nodiscard]] static Mask<4> apart(const Corners<Pack<4>>& corners, const Vec3& a, const Vec3& b, double radius,
+                                     double rounding);
 
   const TriangleMesh* mesh_;
   Bvh4 tree_;
-  std::vector<Block> blocks_;
-  double thin_ = 0.0;  ///< pieces of paths are halved until their radius is below
+  std::vector<Block> blocks_;                    ///< one a leaf
+  std::vector<std::array<double, 3>> vertices_;  ///< the mesh's, in the order in which leaves use them
+  double thin_ = 0.0;                            ///< pieces of paths are halved until their radius is below
 };
 
 }  // namespace xpr

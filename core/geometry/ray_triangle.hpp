@@ -39,22 +39,25 @@ template <class T>
 using Corners = std::array<std::array<T, 3>, 3>;
 
 /// The ray's parameter on the triangle, infinite where it misses, and where the triangle's plane holds the ray. The
-/// same bits for every T.
+/// axes of the corners are in the ray's order: right, up, along. The same bits for every T.
 template <class T>
-[[nodiscard]] T ray_parameter(const ShearedRay& ray, const Corners<T>& corners) {
-  std::array<T, 3> x, y, z;
-  for (std::size_t i = 0; i < 3; ++i) {
-    z[i] = corners[i][ray.along] - ray.origin[ray.along];
-    x[i] = (corners[i][ray.right] - ray.origin[ray.right]) - ray.shear_right * z[i];
-    y[i] = (corners[i][ray.up] - ray.origin[ray.up]) - ray.shear_up * z[i];
-  }
-  const T u = x[2] * y[1] - y[2] * x[1];
-  const T v = x[0] * y[2] - y[0] * x[2];
-  const T w = x[1] * y[0] - y[1] * x[0];
+[[nodiscard, gnu::always_inline]] inline T ray_parameter(const ShearedRay& ray, const Corners<T>& corners) {
+  // Built at once: packs that are filled one by one are zeroed in memory first.
+  const auto sheared = [&ray](const std::array<T, 3>& corner) {
+    const T z = corner[2] - ray.origin[ray.along];
+    return std::array<T, 3>{(corner[0] - ray.origin[ray.right]) - ray.shear_right * z,
+                            (corner[1] - ray.origin[ray.up]) - ray.shear_up * z, z};
+  };
+  const std::array<T, 3> a = sheared(corners[0]), b = sheared(corners[1]), c = sheared(corners[2]);
+  const T zero = 0.0;
+  const T u = c[0] * b[1] - c[1] * b[0];
+  const T v = a[0] * c[1] - a[1] * c[0];
+  const T w = b[0] * a[1] - b[1] * a[0];
+  const auto inside = ((u >= zero) & (v >= zero) & (w >= zero)) | ((u <= zero) & (v <= zero) & (w <= zero));
+  if (!any(inside)) return Box3::infinity;  // mostly so, and a division is dear
   const T determinant = u + v + w;
-  const T t = ray.scale * (u * z[0] + v * z[1] + w * z[2]) / determinant;
-  const auto inside = ((u >= T(0.0)) & (v >= T(0.0)) & (w >= T(0.0))) | ((u <= T(0.0)) & (v <= T(0.0)) & (w <= T(0.0)));
-  return select(inside & (determinant != T(0.0)) & (t >= T(0.0)), t, T(Box3::infinity));
+  const T t = ray.scale * (u * a[2] + v * b[2] + w * c[2]) / determinant;
+  return select(inside & (determinant != zero) & (t >= zero), t, T(Box3::infinity));
 }
 
 }  // namespace xpr

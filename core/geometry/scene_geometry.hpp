@@ -77,7 +77,7 @@ struct GeometryCounts {
   std::uint64_t far = 0;        ///< queries that ended at the box around everything
   std::uint64_t pieces = 0;     ///< parts of paths that went through a mesh's tree
   std::uint64_t nodes = 0;      ///< nodes of trees looked at
-  std::uint64_t triangles = 0;  ///< triangles tested in full
+  std::uint64_t triangles = 0;  ///< triangles tested in full; on straight rays by fours
   std::uint64_t hits = 0;
 };
 
