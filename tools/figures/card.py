@@ -47,7 +47,7 @@ def finish_shares(axes, drawn, title):
     axes.set(xlabel="scaled error [radian, or 1]", ylabel="fraction of the rays with more", title=title)
     axes.axhline(0.01, color=GREY, linewidth=0.8, linestyle=":")
     letter_lines(axes)
-    axes.legend(loc="lower left")
+    axes.legend(loc="lower left", frameon=True, framealpha=0.85, edgecolor="none")
 
 
 def by_quantity(axes, rays, compared):
@@ -110,6 +110,10 @@ def work_and_precision(axes, cards):
     axes.plot(at, p99, "s--", color=VERMILION, label="p99")
     if not by_work:
         axes.plot(at, at, color=GREY, linewidth=0.9, linestyle=":", label="error = tolerance")
+    if at.max() < 10.0 * at.min():
+        # Less than a decade has no label of its own.
+        axes.set_xticks(at, [f"{value:.3g}" for value in at])
+        axes.set_xticks([], minor=True)
     axes.set(xlabel=f"{units.pop()} a ray" if by_work else "tolerance asked for", ylabel="error in direction [radian]",
              title="Work and precision" if by_work else "Error against tolerance")
     axes.legend()

@@ -117,11 +117,11 @@ const std::vector<PeerCard>& peers() {
        .usual_tol = {1.0, 0.25},
        .integrator_text = "order of the FANTASY integrator: 2, 4 (default), 6 or 8",
        .usual_integrator = "4",
-       .usual_rays = 24,
+       .usual_rays = 12,
        .note =
            "EinsteinPy steps with a fixed length, given here in the place of a tolerance; its adapter "
            "(tools/peers/einsteinpy_rays.py) stops each ray beyond r_max, next to the horizon, or after 2000 steps.",
-       .example = "  xprimeray grade einsteinpy --set schwarzschild-core --count 24 --out card/"}};
+       .example = "  xprimeray grade einsteinpy --set schwarzschild-core --out card/"}};
   return all;
 }
 
