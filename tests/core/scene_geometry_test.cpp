@@ -257,6 +257,25 @@ TEST(SceneGeometry, hit_tells_what_was_hit_and_where) {
   EXPECT_FALSE(other->from_outside);
 }
 
+TEST(SceneGeometry, has_normals_across_the_triangles_of_stretched_and_sheared_instances) {
+  const auto geometry = make_geometry(four_knots());
+  Draw draw(44);
+  std::vector<int> hits(5);
+  for (int k = 0; k < 5'000; ++k) {
+    const auto hit = geometry->first_hit(StraightRay{draw.in_cube(2.0), draw.direction()});
+    if (!hit) continue;
+    ++hits[hit->instance];
+    const auto corners = geometry->model().meshes[0]->corners(hit->triangle);
+    const Affine3& map = geometry->model().instances[hit->instance].to_world;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 side = normalized(map.direction(corners[(i + 1) % 3] - corners[i]));
+      // The knot's triangles are up to ten times as long as high: their normals keep 14 digits.
+      EXPECT_NEAR(dot(hit->geometric_normal, side), 0.0, 1e-14);
+    }
+  }
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_GT(hits[i], 20) << i;
+}
+
 TEST(SceneGeometry, keeps_the_outside_outside_when_an_instance_is_mirrored) {
   const TriangleMesh sphere = generate_mesh("uv-sphere");
   const auto geometry = make_geometry(one_mesh(sphere, {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}}));
