@@ -77,7 +77,7 @@ class LaneBatch {
   LaneStart<W> now_;
   LaneEnd<W> step_;
   CompensatedSum<T> lambda_;
-  T h_next_, h_first_, steps_, rejected_, radius_, radial_rate_, residual_, residual_max_, windings_;
+  T h_next_, h_first_, steps_, rejected_, radius_, radial_rate_, interface_, residual_, residual_max_, windings_;
   StepMemory<T> last_;
   M last_rejected_;
 };
@@ -104,7 +104,8 @@ LaneBatch<W>::LaneBatch(const Spacetime& spacetime, const TraceSettings& setting
     surfaces_.push_back(
         {.kind = watch.surface(s).kind, .status = watch.surface(s).status, .direction = watch.surface(s).direction});
     lanes_see_all_ =
-        lanes_see_all_ && (surfaces_[s].kind == SurfaceKind::radius || surfaces_[s].kind == SurfaceKind::half_plane);
+        lanes_see_all_ && (surfaces_[s].kind == SurfaceKind::radius || surfaces_[s].kind == SurfaceKind::interface ||
+                           surfaces_[s].kind == SurfaceKind::half_plane);
   }
 }
 
@@ -132,7 +133,7 @@ void LaneBatch<W>::take_next(int i) {
       continue;
     }
     const RayProgress& at = ray.progress();
-    const bool sided = spacetime_.interface_radius().has_value();
+    const bool sided = has_interface(spacetime_);
     set_lane(active_, i, true);
     set_scale(i);
     take_up(i, sided ? spacetime_.flow_of_side(at.y, at.inside_interface) : ray.first_rate());
@@ -168,6 +169,7 @@ void LaneBatch<W>::take_up(int i, const PhaseState<double>& rate) {
   const LaneProbe<1> probe = spacetime_.lane_charts().one->probe(here, along, {ray.sheet()});
   set_lane(radius_, i, lane(probe.radius, 0));
   set_lane(radial_rate_, i, lane(probe.radial_rate, 0));
+  set_lane(interface_, i, lane(probe.interface, 0));
   sheet_[static_cast<std::size_t>(i)] = ray.sheet();
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
     set_lane(surfaces_[s].level, i, ray.watch().surface(s).level);
@@ -199,8 +201,9 @@ void LaneBatch<W>::put_back(int i) {
   at.null_residual = lane(residual_, i);
   at.null_residual_max = lane(residual_max_, i);
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-    const double g =
-        surfaces_[s].kind == SurfaceKind::radius ? lane(radius_, i) - lane(surfaces_[s].level, i) : at.y[2];
+    double g = at.y[2];
+    if (surfaces_[s].kind == SurfaceKind::radius) g = lane(radius_, i) - lane(surfaces_[s].level, i);
+    if (surfaces_[s].kind == SurfaceKind::interface) g = lane(interface_, i);
     ray.watch().take_up(s, g, static_cast<int>(lane(surfaces_[s].side, i)));
   }
 }
@@ -227,7 +230,7 @@ void LaneBatch<W>::look_closer(int i) {
   std::uint32_t far = 0;
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
     // The half-plane's crossings are counted by the ray.
-    if (surfaces_[s].kind == SurfaceKind::radius && lane(surfaces_[s].far, i)) far |= 1U << s;
+    if (surfaces_[s].kind != SurfaceKind::half_plane && lane(surfaces_[s].far, i)) far |= 1U << s;
   }
   const std::optional<Status> status = ray.accept(outcome, lane(now_.h, i), far);
   RayProgress& at = ray.progress();
@@ -304,6 +307,9 @@ Mask<W> LaneBatch<W>::uneventful(const LaneProbe<W>& probe, const M& good) {
       surface.far = far_from_radius(surface, probe);
       if (surface.status == Status::escaped) calm = calm & !(probe.radius >= surface.level);
       if (surface.status == Status::captured) calm = calm & !(probe.radius <= surface.level);
+    } else if (surface.kind == SurfaceKind::interface) {
+      surface.far = out_of_reach(T(surface.side * interface_), T(surface.side * probe.interface),
+                                 path_length_bound(now_.h, now_.y, now_.rate, step_.y, step_.rate));
     } else {
       pass_half_plane(surface);
     }
@@ -378,12 +384,14 @@ void LaneBatch<W>::commit(const M& quiet, const LaneProbe<W>& probe, const T& re
   residual_max_ = select(quiet & (probe.null_residual > residual_max_), probe.null_residual, residual_max_);
   radius_ = select(quiet, probe.radius, radius_);
   radial_rate_ = select(quiet, probe.radial_rate, radial_rate_);
+  interface_ = select(quiet, probe.interface, interface_);
   for (LaneSurface& surface : surfaces_) {
     if (surface.kind == SurfaceKind::half_plane) {
       surface.side = select(quiet, select(step_.y[2] < 0.0, T(-1.0), T(1.0)), surface.side);
       windings_ = select(quiet, windings_ + surface.windings, windings_);
     } else {
-      const T side = select(probe.radius < surface.level, T(-1.0), T(1.0));
+      const T g = surface.kind == SurfaceKind::radius ? T(probe.radius - surface.level) : probe.interface;
+      const T side = select(g < 0.0, T(-1.0), T(1.0));
       surface.side = select(quiet & (surface.side == 0.0), side, surface.side);
     }
   }

@@ -46,6 +46,7 @@ std::vector<Surface> surfaces_of(const Spacetime& spacetime, const TraceSettings
   if (const std::optional<double> rim = spacetime.interface_radius()) {
     out.push_back({.kind = SurfaceKind::radius, .level = *rim, .cuts = true});
   }
+  if (spacetime.interface_distance({})) out.push_back({.kind = SurfaceKind::interface, .cuts = true});
   const auto& coordinates = spacetime.card().coordinates;
   if (coordinates[1].name == "x" && coordinates[2].name == "y") out.push_back({.kind = SurfaceKind::half_plane});
   for (std::size_t i = 0; i < events.size(); ++i) {
@@ -93,7 +94,7 @@ void RayTrace::begin_chart() {
   settings.error_scale = error_scale(*chart_, now_.y, settings_);
   settings.tao_omega = settings_.tao_omega;
   Flow flow = [chart = chart_](const PhaseState<double>& y) { return chart->flow(y); };
-  if (chart_->interface_radius()) {
+  if (has_interface(*chart_)) {
     flow = [this](const PhaseState<double>& y) { return chart_->flow_of_side(y, now_.inside_interface); };
   }
   stepper_.reset();
@@ -134,6 +135,10 @@ std::optional<Status> RayTrace::begin(const PhaseState<double>& start, int sheet
   if (const std::optional<double> rim = chart_->interface_radius()) {
     const double radius = chart_->radius(now_.y.x());
     now_.inside_interface = radius < *rim || (radius == *rim && radial_change() < 0.0);
+  }
+  if (const std::optional<double> off = chart_->interface_distance(now_.y.x())) {
+    const double ahead = *off != 0.0 ? *off : *chart_->interface_distance(a_little_ahead());
+    now_.inside_interface = ahead < 0.0;
   }
   begin_chart();
   first_step();
@@ -178,11 +183,26 @@ std::optional<Status> RayTrace::try_step() {
   ++now_.rejected;
   now_.last_rejected = true;
   now_.h = outcome.next_step > 0.0 ? outcome.next_step : h * step_factor(outcome.error_norm, method_.error_power);
-  // The path is measured in first steps where it has hardly begun.
-  const double reached = now_.lambda.sum > now_.h_first ? now_.lambda.sum : now_.h_first;
-  if (now_.h < least_step * reached) return numbers ? Status::step_underflow : Status::not_finite;
+  if (now_.h < least_step * reached()) return numbers ? Status::step_underflow : Status::not_finite;
   return std::nullopt;
 }
+
+/// Whether a step to an interface, `fraction` of what was tried, has to be made again because its stages lay beyond,
+/// where this side's formula says little: the next try ends just past the interface. So light that came in with long
+/// steps does not fly through a field with all stages on its far side.
+bool RayTrace::looks_too_far(double h, double fraction) {
+  constexpr double past = 1.001;
+  if (!method_.adaptive || fraction * square(past) > 1.0 || h < least_step * reached()) return false;
+  watch_.take_back();
+  ++now_.rejected;
+  now_.last_rejected = true;
+  now_.last = {};
+  now_.h = past * h;
+  return true;
+}
+
+/// The path so far, measured in first steps where it has hardly begun.
+double RayTrace::reached() const { return now_.lambda.sum > now_.h_first ? now_.lambda.sum : now_.h_first; }
 
 /// Takes a step of size h, or the part of it up to the first stop that it meets.
 std::optional<Status> RayTrace::accept(const StepOutcome& outcome, double h, std::uint32_t far_surfaces) {
@@ -193,6 +213,7 @@ std::optional<Status> RayTrace::accept(const StepOutcome& outcome, double h, std
   const Surface* last = crossings.empty() ? nullptr : &watch_.surface(crossings.back().surface);
   const bool cut = last != nullptr && (last->terminal || last->cuts);
   double fraction = cut ? crossings.back().theta : 1.0;
+  if (cut && last->kind == SurfaceKind::interface && looks_too_far(fraction * h, fraction)) return std::nullopt;
   // The stepper may have repeated the step as the shorter one.
   double part = cut && method_.dense_order >= method_.order - 1 ? fraction : 1.0;
   PhaseState<double> end = cut ? crossings.back().y : outcome.y;
@@ -260,16 +281,19 @@ std::optional<Status> RayTrace::finish_step(const PhaseState<double>& begin, dou
   return std::nullopt;
 }
 
-/// How the radius changes along the ray, over a move so short that the ray is straight.
-double RayTrace::radial_change() {
+/// A move along the ray so short that it is straight.
+Vec4<double> RayTrace::a_little_ahead() {
   const PhaseState<double> rate = counted_flow(now_.y);
   double fastest = 0.0;
   for (std::size_t i = 1; i < 4; ++i) fastest = abs(rate[i]) > fastest ? abs(rate[i]) : fastest;
   const double ahead = 1e-6 * settings_.length_unit / fastest;
   Vec4<double> x = now_.y.x();
   for (std::size_t i = 1; i < 4; ++i) x[i] += ahead * rate[i];
-  return chart_->radius(x) - chart_->radius(now_.y.x());
+  return x;
 }
+
+/// How the radius changes along the ray.
+double RayTrace::radial_change() { return chart_->radius(a_little_ahead()) - chart_->radius(now_.y.x()); }
 
 /// A ray beyond a radius that it never crossed: one that began there. It is done once it goes away from it.
 std::optional<Status> RayTrace::beyond_radius() {

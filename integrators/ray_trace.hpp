@@ -60,6 +60,11 @@ template <class T>
   return isfinite(sum);
 }
 
+/// Whether rays of this chart are on one side or the other of an interface.
+[[nodiscard]] inline bool has_interface(const Spacetime& chart) {
+  return chart.interface_radius().has_value() || chart.interface_distance({}).has_value();
+}
+
 class RayTrace {
  public:
   /// Throws std::invalid_argument as trace_ray does. The spacetime, and the events must outlive this.
@@ -101,8 +106,11 @@ class RayTrace {
   void begin_chart();
   void first_step();
   [[nodiscard]] std::optional<Status> try_step();
+  [[nodiscard]] bool looks_too_far(double h, double fraction);
+  [[nodiscard]] double reached() const;
   [[nodiscard]] std::optional<double> meeting(const StepView& step, const PhaseState<double>& stepped) const;
   [[nodiscard]] std::optional<Status> finish_step(const PhaseState<double>& begin, double h, double part);
+  [[nodiscard]] Vec4<double> a_little_ahead();
   [[nodiscard]] double radial_change();
   [[nodiscard]] std::optional<Status> beyond_radius();
   void retreat_into_domain(const PhaseState<double>& begin, double lambda_begin, double h, double part);

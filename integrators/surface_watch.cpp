@@ -4,6 +4,7 @@
 #include <array>
 
 #include "integrators/flow_stepper.hpp"
+#include "integrators/path_watch.hpp"
 #include "integrators/root.hpp"
 #include "metrics/scalar/elementary.hpp"
 
@@ -24,6 +25,8 @@ double SurfaceWatch::value(std::size_t i, const Spacetime& chart, const PhaseSta
       return chart.radius(y.x()) - s.level;
     case SurfaceKind::proper_distance:
       return chart.proper_distance(y.x(), sheet).value_or(unbounded) - s.level;
+    case SurfaceKind::interface:
+      return chart.interface_distance(y.x()).value_or(unbounded);
     case SurfaceKind::half_plane:
       return y[2];
     case SurfaceKind::event:
@@ -50,6 +53,9 @@ void SurfaceWatch::begin(const Spacetime& chart, const PhaseState<double>& y, in
 std::span<const Crossing> SurfaceWatch::crossings(const StepPath& path, std::uint32_t far) {
   found_.clear();
   if (surfaces_.empty()) return {};
+  g_before_ = g_begin_;
+  sides_before_.resize(surfaces_.size());
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) sides_before_[i] = surfaces_[i].side;
   const PhaseState<double> middle = path.stepper.interpolate_coarse(0.5);
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const bool known_far = i < 32 && ((far >> i) & 1U) != 0;
@@ -79,12 +85,27 @@ std::span<const Crossing> SurfaceWatch::crossings(const StepPath& path, std::uin
   return found_;
 }
 
+void SurfaceWatch::take_back() {
+  g_begin_ = g_before_;
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) surfaces_[i].side = sides_before_[i];
+}
+
 void SurfaceWatch::search(std::size_t i, const StepPath& path, const PhaseState<double>& middle) {
   const double g_end = value(i, path.chart, path.end, path.sheet);
   const double g_middle = value(i, path.chart, middle, path.sheet);
-  // Far away: one sign, and further off than g varies over the step.
-  const auto [low, high] = std::minmax({g_begin_[i], g_middle, g_end});
-  if ((low > 0.0 && low > high - low) || (high < 0.0 && -high > high - low)) return;
+  if (surfaces_[i].kind == SurfaceKind::interface) {
+    // g is a distance, of whatever is nearest: what lies between may be met and left unseen from both ends.
+    const double side = static_cast<double>(surfaces_[i].side);
+    if (out_of_reach(
+            side * g_begin_[i], side * g_end,
+            path_length_bound(path.h, path.begin, path.stepper.begin_rate(), path.end, path.stepper.end_rate()))) {
+      return;
+    }
+  } else {
+    // Far away: one sign, and further off than g varies over the step.
+    const auto [low, high] = std::minmax({g_begin_[i], g_middle, g_end});
+    if ((low > 0.0 && low > high - low) || (high < 0.0 && -high > high - low)) return;
+  }
 
   const double theta_first = end_fraction(path.begin, path.stepper.begin_rate(), path.h);
   const double theta_last = 1.0 - end_fraction(path.end, path.stepper.end_rate(), path.h);

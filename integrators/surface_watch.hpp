@@ -18,7 +18,7 @@
 namespace xpr {
 
 /// What a surface is for.
-enum class SurfaceKind { radius, proper_distance, half_plane, event };
+enum class SurfaceKind { radius, proper_distance, interface, half_plane, event };
 
 /// One surface and which side of it the ray is on.
 struct Surface {
@@ -81,6 +81,8 @@ class SurfaceWatch {
   /// whose interpolant is not good enough, the stepper's last step is the cut one afterwards.
   /// Surfaces whose bit is set in `far` are known not to be met and not looked for.
   [[nodiscard]] std::span<const Crossing> crossings(const StepPath& path, std::uint32_t far = 0);
+  /// Forgets the last crossings(): the step is not taken.
+  void take_back();
 
  private:
   struct Sample {
@@ -95,6 +97,8 @@ class SurfaceWatch {
 
   std::vector<Surface> surfaces_;
   std::vector<double> g_begin_;
+  std::vector<double> g_before_;  ///< of the last crossings()
+  std::vector<int> sides_before_;
   double length_unit_;
   std::vector<Crossing> found_;
 };

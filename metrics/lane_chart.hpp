@@ -17,11 +17,12 @@ namespace xpr {
 /// What a step's end has to be looked at for, in every lane.
 template <int W>
 struct LaneProbe {
-  Pack<W> radius;         ///< as Spacetime::radius
-  Pack<W> radial_rate;    ///< d radius / d lambda
-  Pack<W> null_residual;  ///< as Spacetime::null_residual; NaN where g^{tt} >= 0
-  Mask<W> inside;         ///< as Spacetime::inside_domain
-  Mask<W> stays;          ///< the atlas leaves the ray in this chart
+  Pack<W> radius;          ///< as Spacetime::radius
+  Pack<W> radial_rate;     ///< d radius / d lambda
+  Pack<W> null_residual;   ///< as Spacetime::null_residual; NaN where g^{tt} >= 0
+  Mask<W> inside;          ///< as Spacetime::inside_domain
+  Mask<W> stays;           ///< the atlas leaves the ray in this chart
+  Pack<W> interface = {};  ///< as Spacetime::interface_distance, where there is such an interface
 };
 
 template <int W>
@@ -76,7 +77,9 @@ class LaneChartOf final : public LaneChart<W> {
   // Flattened: duals that cross a call go through memory, which doubles the time.
   [[gnu::flatten]] void flow(const PhaseState<T>& y, [[maybe_unused]] const Mask<W>& inside,
                              PhaseState<T>& rate) const override {
-    if constexpr (requires { module_.interface_radius(); }) {
+    if constexpr (requires { module_.interface_distance(y.x()); }) {
+      rate = module_.flow_of_side(y, inside);
+    } else if constexpr (requires { module_.interface_radius(); }) {
       const PhaseState<T> within = module_.flow_of_side(y, true);
       const PhaseState<T> without = module_.flow_of_side(y, false);
       for (std::size_t k = 0; k < 8; ++k) rate[k] = select(inside, within[k], without[k]);
@@ -101,6 +104,7 @@ class LaneChartOf final : public LaneChart<W> {
         .null_residual = select(g(0, 0) < 0.0, xpr::null_residual(g, p), T(std::numeric_limits<double>::quiet_NaN())),
         .inside = inside_domain(module_, x),
         .stays = Mask<W>(true)};
+    if constexpr (requires { module_.interface_distance(x); }) out.interface = module_.interface_distance(x);
     if constexpr (requires { module_.atlas_switch(PhaseState<double>{}, 1); }) {
       for (int i = 0; i < W; ++i) {
         set_lane(out.stays, i, !module_.atlas_switch(lane_of<W>(y, i), sheet[static_cast<std::size_t>(i)]));

@@ -82,6 +82,9 @@ class Spacetime {
   [[nodiscard]] virtual std::optional<double> proper_distance(const Vec4<double>& x, int sheet) const = 0;
   /// Radius at which derivatives of the metric jump (the rim of a lens), if there is one: a step has to end there.
   [[nodiscard]] virtual std::optional<double> interface_radius() const = 0;
+  /// The same where the interface is no surface of the radius: zero on it, negative inside, and never larger in size
+  /// than the distance to it in x1, x2, x3. Nothing where there is no such interface, wherever x is.
+  [[nodiscard]] virtual std::optional<double> interface_distance(const Vec4<double>& x) const = 0;
   /// The flow of one side of the interface, continued smoothly past it, so that a step may end there at full order; the
   /// flow itself where there is no interface.
   [[nodiscard]] virtual PhaseState<double> flow_of_side(const PhaseState<double>& y, bool inside) const = 0;

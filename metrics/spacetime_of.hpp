@@ -13,6 +13,10 @@
 //   double proper_distance(const Vec4<double>&, int sheet) const
 //   double interface_radius() const                                  where derivatives of the metric jump
 //   PhaseState<T> flow_of_side(const PhaseState<T>&, bool inside)   goes with it: the flow of either side, past it too
+//   T interface_distance(const Vec4<T>&) const                       in its place, for interfaces of any shape: < 0
+//   inside,
+//                                                                    |g(x) - g(y)| at most the distance in x1..x3; its
+//                                                                    flow_of_side takes a MaskOf<T>
 //   MaskOf<T> inside_domain(const Vec4<T>&) const
 //   static constexpr bool for_lanes                                  false: one ray at a time, less to compile
 //   to_hub, from_hub                                                 the map to the chart in which all charts meet:
@@ -163,9 +167,13 @@ class SpacetimeOf final : public Spacetime {
     if constexpr (requires { module_.interface_radius(); }) return module_.interface_radius();
     return std::nullopt;
   }
+  [[nodiscard]] std::optional<double> interface_distance([[maybe_unused]] const Vec4<double>& x) const override {
+    if constexpr (requires { module_.interface_distance(x); }) return module_.interface_distance(x);
+    return std::nullopt;
+  }
   [[nodiscard]] PhaseState<double> flow_of_side(const PhaseState<double>& y,
                                                 [[maybe_unused]] bool inside) const override {
-    if constexpr (requires { module_.interface_radius(); }) return module_.flow_of_side(y, inside);
+    if constexpr (requires { module_.flow_of_side(y, inside); }) return module_.flow_of_side(y, inside);
     return xpr::flow(module_, y);
   }
 

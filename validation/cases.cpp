@@ -14,8 +14,8 @@ namespace {
 /// In report order.
 constexpr std::array families = {
     conformance_cases,  //
-    flat_cases,        schwarzschild_cases, kerr_cases,    ellis_cases, media_cases,
-    ellipsoid_cases,   numerical_cases,     grading_cases, paper_cases,
+    flat_cases,        schwarzschild_cases, kerr_cases,      ellis_cases,   media_cases,
+    grin_cases,        ellipsoid_cases,     numerical_cases, grading_cases, paper_cases,
 };
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace xpr {
 namespace {
 
 constexpr std::array families = {
-    metric_faults, flat_faults,      schwarzschild_faults, kerr_faults,  ellis_faults,
-    media_faults,  numerical_faults, grading_faults,       paper_faults,
+    metric_faults, flat_faults, schwarzschild_faults, kerr_faults,    ellis_faults,
+    media_faults,  grin_faults, numerical_faults,     grading_faults, paper_faults,
 };
 
 }  // namespace

@@ -31,8 +31,8 @@ Quadrature integrate(const F& f, Long from, Long to, Long tolerance, int depth =
   const Long left = Gauss::integrate(f, from, middle), right = Gauss::integrate(f, middle, to);
   const Long change = std::abs(left + right - whole);
   const Long round_off = 16.0L * std::numeric_limits<Long>::epsilon() * (std::abs(left) + std::abs(right));
-  // At an end where f is a power, sixty halvings leave nothing.
-  if (change <= tolerance + round_off || depth == 60) return {left + right, change};
+  // At an end where f is a power, this many halvings leave nothing.
+  if (change <= tolerance + round_off || depth == 25) return {left + right, change};
   const Quadrature a = integrate(f, from, middle, tolerance, depth + 1);
   const Quadrature b = integrate(f, middle, to, tolerance, depth + 1);
   return {a.value + b.value, a.error + b.error};
@@ -212,9 +212,15 @@ Long turn(const RadialIndex& index, Long from, Long b) {
 Quadrature swept(const RadialIndex& index, Long from, Long to, Long b, Long radial) {
   const Long log_from = index.log_index(from);
   const Long nr_squared = radial == 0.0L ? b * b : b * b + radial * radial;
+  const Long first_seam = *std::upper_bound(index.seams().begin(), index.seams().end(), from);
   const auto integrand = [&](Long t) {
     const Long beyond = t * t, r = from + beyond;
-    const Long growth = 2.0L * (std::log1p(beyond / from) + index.log_index(r) - log_from);
+    // Near the turning point the difference of ln n would cancel: there it is integrated.
+    const bool near = beyond < 0.05L * from && r < first_seam;
+    const Long change = near ? -boost::math::quadrature::gauss<Long, 30>::integrate(
+                                   [&](Long way) { return index.bending(from + way); }, 0.0L, beyond)
+                             : index.log_index(r) - log_from;
+    const Long growth = 2.0L * (std::log1p(beyond / from) + change);
     const Long root = std::sqrt(nr_squared * std::expm1(growth) + radial * radial);
     return 2.0L * b * t / (r * root);
   };

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "metrics/catalogue.hpp"
+#include "metrics/fields/field_medium.hpp"
 #include "metrics/null_cone.hpp"
+#include "metrics/spacetime.hpp"
 
 namespace xpr {
 namespace {
@@ -143,6 +145,47 @@ TEST(BatchTracer, gives_them_with_projection_and_through_throats_and_rims) {
   settings.l_min = -12.0;
   EXPECT_GT(
       compare(*wormhole, rays_everywhere(*wormhole), settings, "throat")[static_cast<std::size_t>(Status::crossed)], 0);
+}
+
+/// Fields that overlap, one a box, one with a rim at which light bends at once, one with soft edges.
+FieldSet overlapping_fields() {
+  FieldSource power{.name = "power", .curve = FieldCurve::power, .amplitude = 0.4, .r_outer = 5.0, .a = 1.8};
+  power.world_from_local.origin = {2.0, 0.0, 0.0};
+  FieldSource box{
+      .name = "box", .curve = FieldCurve::linear, .shape = FieldShape::box, .amplitude = 0.2, .r_outer = 3.0};
+  box.half_size = {3.0, 2.0, 4.0};
+  FieldSource rim{.name = "rim", .curve = FieldCurve::exponential, .amplitude = 0.3, .r_outer = 2.0, .a = 1.0};
+  rim.world_from_local.origin = {-4.0, 1.0, 2.0};
+  FieldSource soft{.name = "soft", .curve = FieldCurve::gaussian, .amplitude = 0.3, .r_outer = 4.0, .a = 0.5};
+  soft.edge_softness = 0.2;
+  soft.r_inner = 0.5;
+  return {.sources = {power, box, rim, soft}, .gains = {}};
+}
+
+TEST(BatchTracer, gives_them_across_the_surfaces_of_fields) {
+  const auto fields = make_field_spacetime(overlapping_fields());
+  const std::vector<BatchRay> rays = rays_everywhere(*fields);
+  for (const std::string method : {"dopri54", "dop853"}) {
+    const std::vector<int> counts = compare(*fields, rays, settings_of(*fields, method), "fields " + method);
+    EXPECT_GT(counts[static_cast<std::size_t>(Status::escaped)], 30);
+  }
+}
+
+TEST(BatchTracer, misses_no_field_that_a_long_step_would_jump) {
+  // Straight light takes steps as long as its way: the rim of a field that it grazes has to end one.
+  FieldSource lens{.name = "lens", .curve = FieldCurve::exponential, .amplitude = 0.9, .r_outer = 5.0, .a = 2.0};
+  const auto medium = make_field_spacetime({.sources = {lens}, .gains = {}});
+  TraceSettings settings;
+  settings.r_max = 2000.0;
+  settings.tol = 1e-9;
+  for (const double b : {0.5, 3.0, 4.9, 4.999}) {
+    const std::vector<BatchRay> rays(1, {.start = {{0.0, -1000.0, b, 0.0}, {-1.0, 1.0, 0.0, 0.0}}});
+    for (const int lanes : lane_widths) {
+      std::vector<RayEnd> ends(1);
+      trace_rays(*medium, rays, settings, lanes, ends);
+      EXPECT_NE(ends[0].y[6], 0.0) << "b = " << b;
+    }
+  }
 }
 
 TEST(BatchTracer, refuses_other_widths_and_too_little_room) {
