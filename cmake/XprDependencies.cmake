@@ -14,6 +14,7 @@ pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(OPENEXR REQUIRED IMPORTED_TARGET OpenEXR)
 pkg_check_modules(TINYGLTF REQUIRED IMPORTED_TARGET tinygltf)
 pkg_check_modules(TINYOBJLOADER REQUIRED IMPORTED_TARGET tinyobjloader_double)
+find_package(PNG REQUIRED)
 
 # Debian's GeographicLib 2.1.2 ships no CMake config package: config, then pkg-config, then a plain search.
 find_package(GeographicLib CONFIG QUIET)

@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "core/io/hash.hpp"
 #include "core/projection_names.hpp"
 
 namespace xpr {
@@ -107,6 +108,52 @@ Json fields_json(const FieldSet& fields) {
   return out;
 }
 
+/// Over the places of the corners, triangle by triangle.
+std::string mesh_hash(const TriangleMesh& mesh) {
+  CanonicalHash hash;
+  DatasetHash& corners = hash.dataset("corners");
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const Vec3& corner : mesh.corners(t)) {
+      for (std::size_t k = 0; k < 3; ++k) corners.add(corner[k]);
+    }
+  }
+  return hash.hex();
+}
+
+Json things_json(const SceneSnapshot& scene) {
+  Json meshes = Json::array(), materials = Json::array(), instances = Json::array();
+  for (std::size_t k = 0; k < scene.meshes.size(); ++k) {
+    const TriangleMesh& mesh = *scene.meshes.mesh[k];
+    meshes.push_back({{"name", scene.meshes.name[k]},
+                      {"source", scene.meshes.source[k]},
+                      {"vertices", mesh.vertices.size()},
+                      {"triangles", mesh.triangles.size()},
+                      {"hash", mesh_hash(mesh)}});
+  }
+  const SceneMaterials& m = scene.materials;
+  for (std::size_t k = 0; k < m.size(); ++k) {
+    materials.push_back({{"name", m.name[k]},
+                         {"kind", name_in(material_kind_names, m.kind[k])},
+                         {"colour_a", numbers_json(m.colour_a[k])}});
+    if (m.kind[k] != MaterialKind::checker) continue;
+    materials.back()["colour_b"] = numbers_json(m.colour_b[k]);
+    materials.back()["squares"] = m.squares[k];
+  }
+  const SceneInstances& i = scene.instances;
+  for (std::size_t k = 0; k < i.size(); ++k) {
+    const Affine3& to_world = i.to_world[k];
+    instances.push_back({{"path", i.path[k]},
+                         {"mesh", scene.meshes.name[i.mesh[k]]},
+                         {"material", i.material[k] ? Json(m.name[*i.material[k]]) : Json(nullptr)},
+                         {"x_axis", vector_json(to_world.x_axis)},
+                         {"y_axis", vector_json(to_world.y_axis)},
+                         {"z_axis", vector_json(to_world.z_axis)},
+                         {"shift", vector_json(to_world.shift)},
+                         {"solid", i.solid[k] != 0}});
+  }
+  return {{"meshes", meshes}, {"materials", materials}, {"instances", instances}};
+}
+
 Json spacetime_json(const SceneSpacetime& spacetime) {
   Json set = Json::object();
   for (const auto& [name, value] : spacetime.parameters) set[name] = json_number(value);
@@ -192,9 +239,11 @@ Json scene_json(const SceneSnapshot& scene) {
           {"transport", transport_json(scene.transport)},
           {"spacetime", spacetime_json(scene.spacetime)},
           {"fields", fields_json(scene.fields)},
+          {"things", things_json(scene)},
           {"sky", sky_json(scene.sky)},
           {"film", film_json(scene.film)},
-          {"research", research_json(scene.research)}};
+          {"research", research_json(scene.research)},
+          {"warnings", scene.warnings}};
 }
 
 std::string scene_text(const SceneSnapshot& scene) {
@@ -211,10 +260,15 @@ std::string scene_text(const SceneSnapshot& scene) {
   out += fmt::format("transport  tier {}, {}, tol {:g}, project {}, at most {} steps\n", transport.tier,
                      transport.method, transport.tol, name_of(*transport.project),
                      transport.tier == 0 ? transport.preview.max_steps : transport.max_steps);
+  std::size_t triangles = 0;
+  for (const std::uint32_t mesh : scene.instances.mesh) triangles += scene.meshes.mesh[mesh]->triangles.size();
+  out += fmt::format("things     {} instance(s) of {} mesh(es), {} triangles\n", scene.instances.size(),
+                     scene.meshes.size(), triangles);
   out += fmt::format("sky        {}\n", name_in(sky_kind_names, scene.sky.kind));
   out += fmt::format("film       {} x {} pixels, {} ray(s) a pixel, seed {}\n", film.columns(), film.rows(),
                      film.samples, film.seed);
   out += fmt::format("research   preset {}, overrides {}\n", scene.research.preset, hash_of(scene.research.overrides));
+  for (const std::string& warning : scene.warnings) out += "warning    " + warning + "\n";
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/io/errors.hpp"
+#include "core/scene/colour_check.hpp"
 #include "core/scene/scene_host.hpp"
 #include "metrics/catalogue.hpp"
 
@@ -34,13 +35,6 @@ void need(bool good, const SourcePlace& place, std::string_view key, const std::
 bool is_cartesian(const Card& card) {
   return std::all_of(card.coordinates.begin() + 1, card.coordinates.end(),
                      [](const Coordinate& c) { return c.kind == CoordinateKind::length; });
-}
-
-void check_colour(const Colour& colour, const SourcePlace& place, std::string_view key) {
-  for (const double channel : colour) {
-    need(std::isfinite(channel) && channel >= 0.0, place, key,
-         fmt::format("has a channel {}, needs finite numbers of 0 or more", channel));
-  }
 }
 
 }  // namespace
@@ -113,7 +107,7 @@ void SceneBuilder::check_sky() const {
   need(sky.line_width > 0.0 && sky.line_width < std::numbers::pi / 2.0, place, "line_width",
        "needs more than 0 and less than 90 degrees");
   need(sky.kind == SkyKind::image || sky.file.empty(), place, "file", "is for kind = \"image\" alone");
-  need(sky.kind != SkyKind::image || !sky.file.empty(), place, "file", "is missing: kind = \"image\" needs one");
+  need(sky.kind != SkyKind::image || sky.image != nullptr, place, "file", "is missing: kind = \"image\" needs one");
 }
 
 SceneFilm SceneBuilder::finished_film() const {
@@ -156,10 +150,13 @@ std::shared_ptr<const SceneSnapshot> SceneBuilder::finish() const {
   std::sort(scene->spacetime.parameters.begin(), scene->spacetime.parameters.end());
   scene->fields = finished_fields();
   scene->transport = finished_transport();
+  scene->materials = finished_materials();
+  finish_instances(*scene);
   check_sky();
   scene->sky = sky_.what;
   scene->film = finished_film();
   finish_research(*scene);
+  scene->warnings = warnings_;
   return scene;
 }
 

@@ -17,7 +17,7 @@ using scene_sections::Keys;
 
 /// Sections that stand once, and those that may stand often.
 const Keys single{"scene", "camera", "observer", "transport", "spacetime", "fields", "sky", "film", "research"};
-const Keys repeated{"field"};
+const Keys repeated{"field", "mesh", "material", "instance"};
 
 class SceneReader {
  public:
@@ -87,7 +87,14 @@ void SceneFile::describe(SceneBuilder& builder) const {
   reader.read(builder, "spacetime", from::spacetime_keys, from::spacetime_from);
   reader.read(builder, "fields", from::gains_keys, from::gains_from);
   reader.read_all(builder, "field", from::field_keys, from::field_from);
-  reader.read(builder, "sky", from::sky_keys, from::sky_from);
+  std::vector<std::string> warnings;
+  reader.read_all(builder, "mesh", from::mesh_keys,
+                  [&](const TomlSection& section) { return from::mesh_from(section, directory_, warnings); });
+  for (std::string& line : warnings) builder.warn(name_ + ": " + std::move(line));
+  reader.read_all(builder, "material", from::material_keys, from::material_from);
+  reader.read_all(builder, "instance", from::instance_keys, from::instance_from);
+  reader.read(builder, "sky", from::sky_keys,
+              [&](const TomlSection& section) { return from::sky_from(section, directory_); });
   reader.read(builder, "film", from::film_keys, from::film_from);
   reader.read(builder, "research", from::research_keys(), from::research_from);
 }

@@ -23,6 +23,29 @@ struct SceneFlags {
   std::optional<std::int64_t> samples = {};
 };
 
+struct MeshDescription {
+  std::string name;
+  std::shared_ptr<const TriangleMesh> mesh;  ///< clean: drop_defects has been over it
+  std::string source;                        ///< the file or the shape that it came from
+};
+
+struct MaterialDescription {
+  std::string name;
+  MaterialKind kind = MaterialKind::lit;
+  Colour colour_a{0.8, 0.8, 0.8};
+  Colour colour_b{0.2, 0.2, 0.2};
+  std::array<std::int64_t, 2> squares{8, 8};
+};
+
+struct InstanceDescription {
+  std::string path;
+  std::string parent;    ///< path of the instance whose transform comes after this one's; empty: none
+  std::string mesh;      ///< by name; empty: a group, which only carries others
+  std::string material;  ///< by name; empty: those that the mesh names itself, else "default"
+  Affine3 transform;
+  bool solid = false;
+};
+
 /// Collects what a host says. What is not said keeps its default. The place of each part is where errors point to.
 class SceneBuilder {
  public:
@@ -37,6 +60,15 @@ class SceneBuilder {
   /// Of `research` only the preset and the scene's own overrides are looked at.
   void set(SceneResearch research, SourcePlace place) { research_ = {std::move(research), std::move(place)}; }
   void add(FieldSource field, SourcePlace place) { fields_.push_back({std::move(field), std::move(place)}); }
+
+  void add(MeshDescription mesh, SourcePlace place) { meshes_.push_back({std::move(mesh), std::move(place)}); }
+  void add(MaterialDescription material, SourcePlace place) {
+    materials_.push_back({std::move(material), std::move(place)});
+  }
+  void add(InstanceDescription instance, SourcePlace place) {
+    instances_.push_back({std::move(instance), std::move(place)});
+  }
+  void warn(std::string line) { warnings_.push_back(std::move(line)); }
 
   void set_flags(SceneFlags flags) { flags_ = std::move(flags); }
 
@@ -55,6 +87,11 @@ class SceneBuilder {
   [[nodiscard]] FieldSet finished_fields() const;
   [[nodiscard]] SceneFilm finished_film() const;
   [[nodiscard]] SceneTransport finished_transport() const;
+  [[nodiscard]] SceneMaterials finished_materials() const;
+  void finish_instances(SceneSnapshot& scene) const;
+  [[nodiscard]] Affine3 to_world(const Said<InstanceDescription>& instance) const;
+  [[nodiscard]] std::shared_ptr<const TriangleMesh> with_scene_materials(const Said<MeshDescription>& mesh,
+                                                                         const SceneMaterials& materials) const;
   void check_observer() const;
   void check_spacetime() const;
   void check_sky() const;
@@ -70,6 +107,10 @@ class SceneBuilder {
   Said<SceneFilm> film_;
   Said<SceneResearch> research_;
   std::vector<Said<FieldSource>> fields_;
+  std::vector<Said<MeshDescription>> meshes_;
+  std::vector<Said<MaterialDescription>> materials_;
+  std::vector<Said<InstanceDescription>> instances_;
+  std::vector<std::string> warnings_;
   SceneFlags flags_;
 };
 

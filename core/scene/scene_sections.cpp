@@ -8,36 +8,16 @@
 
 #include "core/io/errors.hpp"
 #include "core/projection_names.hpp"
-#include "core/scene/rotation.hpp"
+#include "core/scene/assign.hpp"
 
 namespace xpr::scene_sections {
 namespace {
-
-Vec3 vec3(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
-
-template <class T, class V>
-void assign(T& to, const std::optional<V>& value) {
-  if (value) to = *value;
-}
-void assign(Vec3& to, const std::optional<std::array<double, 3>>& value) {
-  if (value) to = vec3(*value);
-}
 
 /// At most one of the keys is given.
 void only_one(const TomlSection& section, std::string_view first, std::string_view second) {
   if (section.has(first) && section.has(second)) {
     section.place().fail(second, fmt::format("and {} say the same thing twice; keep one", first));
   }
-}
-
-Affine3 rotation_from(const TomlSection& section, const TomlTable& table) {
-  const TomlSection rotate(section.place().source, section.place().section + " rotate",
-                           section.place().key_line.at("rotate"), table, {"axis", "angle"});
-  rotate.require("axis");
-  rotate.require("angle");
-  const Vec3 axis = vec3(*rotate.numbers_of<3>("axis"));
-  if (!(length(axis) > 0.0)) rotate.place().fail("axis", "is zero, needs a direction");
-  return rotation(normalized(axis), *rotate.angle("angle"));
 }
 
 }  // namespace
@@ -206,20 +186,6 @@ FieldSource field_from(const TomlSection& section) {
   return field;
 }
 
-const Keys sky_keys{"kind", "colour_a", "colour_b", "squares", "line_width", "file"};
-
-SceneSky sky_from(const TomlSection& section) {
-  SceneSky sky;
-  section.require("kind");
-  assign(sky.kind, section.choice<SkyKind>("kind", sky_kind_names));
-  assign(sky.colour_a, section.numbers_of<3>("colour_a"));
-  assign(sky.colour_b, section.numbers_of<3>("colour_b"));
-  assign(sky.squares, section.integer("squares"));
-  assign(sky.line_width, section.angle("line_width"));
-  assign(sky.file, section.text("file"));
-  return sky;
-}
-
 const Keys film_keys{"width", "height", "scale", "samples", "tile", "seed", "aovs"};
 
 SceneFilm film_from(const TomlSection& section) {
@@ -239,31 +205,6 @@ SceneFilm film_from(const TomlSection& section) {
     }
   }
   return film;
-}
-
-Affine3 transform_from(const TomlSection& section) {
-  Affine3 out;
-  if (const auto m = section.numbers_of<12>("matrix")) {
-    for (const std::string_view key : {"translate", "rotate", "scale"}) {
-      if (section.has(key)) section.place().fail(key, "and matrix exclude each other; keep one");
-    }
-    const auto column = [&](std::size_t k) { return Vec3{(*m)[k], (*m)[k + 4], (*m)[k + 8]}; };
-    out = {column(0), column(1), column(2), column(3)};
-  } else {
-    if (const TomlValue* scale = section.find("scale")) {
-      const std::array<double, 3> s = scale->as<TomlArray>() != nullptr ? *section.numbers_of<3>("scale") : [&] {
-        const double same = *section.number("scale");
-        return std::array{same, same, same};
-      }();
-      out = {{s[0], 0.0, 0.0}, {0.0, s[1], 0.0}, {0.0, 0.0, s[2]}, {}};
-    }
-    if (const TomlTable* rotate = section.table("rotate")) out = rotation_from(section, *rotate) * out;
-    assign(out.shift, section.numbers_of<3>("translate"));
-  }
-  if (out.determinant() == 0.0) {
-    section.place().fail(section.has("matrix") ? "matrix" : "scale", "flattens space: it cannot be undone");
-  }
-  return out;
 }
 
 }  // namespace xpr::scene_sections

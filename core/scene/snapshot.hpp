@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/geometry/affine3.hpp"
+#include "core/geometry/scene_geometry.hpp"
 #include "core/geometry/vec3.hpp"
 #include "core/scene/research.hpp"
 #include "integrators/tracer.hpp"
@@ -77,11 +79,49 @@ struct SceneSpacetime {
   std::vector<std::pair<std::string, double>> parameters;  ///< those that were set, by name
 };
 
+/// Channels of a colour are linear, 0 to 1 where nothing shines.
+using Colour = std::array<double, 3>;
+
+/// Triangle meshes, by name. Snapshots share them: a frame in which only instances moved has the same meshes.
+struct SceneMeshes {
+  std::vector<std::string> name;
+  std::vector<std::shared_ptr<const TriangleMesh>> mesh;
+  std::vector<std::string> source;  ///< the file or the shape that it came from
+
+  [[nodiscard]] std::size_t size() const { return name.size(); }
+};
+
+/// How a surface looks. `lit` and `checker` are bright where they face the camera, `flat` is its colour everywhere,
+/// light that meets an `absorber` ends there and is black.
+enum class MaterialKind { flat, lit, checker, absorber };
+inline constexpr std::array<std::string_view, 4> material_kind_names{"flat", "lit", "checker", "absorber"};
+
+struct SceneMaterials {
+  std::vector<std::string> name;
+  std::vector<MaterialKind> kind;
+  std::vector<Colour> colour_a;
+  std::vector<Colour> colour_b;                      ///< of a checker's other squares
+  std::vector<std::array<std::int64_t, 2>> squares;  ///< of a checker, along u and v from 0 to 1
+
+  [[nodiscard]] std::size_t size() const { return name.size(); }
+};
+
+/// Meshes where they stand, by path.
+struct SceneInstances {
+  std::vector<std::string> path;
+  std::vector<std::uint32_t> mesh;  ///< an index into SceneMeshes
+  std::vector<Affine3> to_world;    ///< parents applied
+  /// An index into SceneMaterials; nothing where the mesh's triangles name their own, as such indices too.
+  std::vector<std::optional<std::uint32_t>> material;
+  std::vector<std::uint8_t> solid;  ///< 1: its inside is no place for a camera
+
+  [[nodiscard]] std::size_t size() const { return path.size(); }
+};
+
 enum class SkyKind { none, checker, graticule, image };
 inline constexpr std::array<std::string_view, 4> sky_kind_names{"none", "checker", "graticule", "image"};
 
-/// Channels of a colour are linear, 0 to 1 where nothing shines.
-using Colour = std::array<double, 3>;
+struct SkyImage;
 
 /// What stands at infinity. Longitude turns from forward -z, latitude rises to +y.
 struct SceneSky {
@@ -91,6 +131,7 @@ struct SceneSky {
   std::int64_t squares = 24;  ///< of a checker or graticule around the equator; half as many from pole to pole
   double line_width = 0.008726646259971648;  ///< of a graticule, an angle (half a degree)
   std::string file;                          ///< of an image
+  std::shared_ptr<const SkyImage> image;     ///< what is in it
 };
 
 /// What is stored for every pixel beside its colour.
@@ -145,9 +186,16 @@ struct SceneSnapshot {
   SceneTransport transport;
   SceneSpacetime spacetime;
   FieldSet fields;
+  SceneMeshes meshes;
+  SceneMaterials materials;
+  SceneInstances instances;
   SceneSky sky;
   SceneFilm film;
   SceneResearch research;
+  std::vector<std::string> warnings;  ///< what was put right or left out, a line each
 };
+
+/// What geometry is built from; owner k is instance k.
+[[nodiscard]] GeometryModel geometry_model(const SceneSnapshot& scene);
 
 }  // namespace xpr
