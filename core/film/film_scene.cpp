@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "core/film/kick_drift_tracer.hpp"
-#include "core/film/sky.hpp"
+#include "core/film/shading.hpp"
 #include "core/transport.hpp"
 #include "integrators/batch_tracer.hpp"
 #include "metrics/catalogue.hpp"
@@ -68,9 +68,6 @@ KickDriftSettings preview_settings(const SceneSnapshot& scene) {
   return out;
 }
 
-/// Lit from the camera: what faces it is bright, what is seen along its surface dim.
-double lit(const RayRecord& ray) { return 0.15 + 0.85 * std::abs(dot(ray.hit.shading_normal, ray.direction)); }
-
 }  // namespace
 
 FilmScene::FilmScene(std::shared_ptr<const SceneSnapshot> scene, const SceneGeometry& geometry, int lanes)
@@ -95,22 +92,7 @@ FilmScene::FilmScene(std::shared_ptr<const SceneSnapshot> scene, const SceneGeom
 }
 
 Shader FilmScene::shader() const {
-  return [scene = scene_](const RayRecord& ray) -> Colour {
-    switch (ray.film_class) {
-      case FilmClass::geom_hit: {
-        const double light = lit(ray);
-        return {0.8 * light, 0.8 * light, 0.8 * light};
-      }
-      case FilmClass::background_hit:
-        return sky_colour(scene->sky, ray.direction);
-      case FilmClass::budget_exhausted:
-        return {0.8, 0.0, 0.8};
-      case FilmClass::unclassified:
-        return {1.0, 0.4, 0.0};
-      default:
-        return {0.0, 0.0, 0.0};
-    }
-  };
+  return [scene = scene_](const RayRecord& ray) { return colour_of(*scene, ray); };
 }
 
 }  // namespace xpr

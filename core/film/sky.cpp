@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/scene/sky_image.hpp"
 #include "metrics/scalar/elementary.hpp"
 
 namespace xpr {
@@ -32,8 +33,9 @@ Colour sky_colour(const SceneSky& sky, const Vec3& direction) {
       const double off = std::min(across, off_line(at.latitude, spacing));
       return off < 0.5 * sky.line_width ? sky.colour_b : sky.colour_a;
     }
-    case SkyKind::none:
     case SkyKind::image:
+      return sky.image->at(at.longitude, at.latitude);
+    case SkyKind::none:
       break;
   }
   return {0.0, 0.0, 0.0};

@@ -13,7 +13,7 @@ struct SkyDirection {
 };
 [[nodiscard]] SkyDirection sky_direction(const Vec3& direction);
 
-/// The colour of a checker or graticule in a direction; black where there is no sky. Images: see SkyImage.
+/// The colour in a direction; black where there is no sky.
 [[nodiscard]] Colour sky_colour(const SceneSky& sky, const Vec3& direction);
 
 }  // namespace xpr

@@ -32,6 +32,7 @@ Command register_validate(CLI::App& program);
 Command register_errormap(CLI::App& program);
 Command register_paper(CLI::App& program);
 Command register_grade(CLI::App& program);
+Command register_render(CLI::App& program);
 Command register_repro(CLI::App& program);
 Command register_compare(CLI::App& program);
 Command register_reference(CLI::App& program);

@@ -69,11 +69,11 @@ int parse_and_run(int argc, char** argv) {
   program.set_version_flag("--version", [] { return "xprimeray " + provenance().version; });
   program.require_subcommand(1);
   program.footer("Each subcommand has its own --help with an example.\nExample:\n  xprimeray explain kerr");
-  const std::vector<Command> commands{
-      register_validate(program), register_sweep(program),   register_trace(program),    register_conform(program),
-      register_list(program),     register_explain(program), register_errormap(program), register_grade(program),
-      register_paper(program),    register_repro(program),   register_compare(program),  register_reference(program),
-      register_doctor(program)};
+  const std::vector<Command> commands{register_validate(program),  register_sweep(program),   register_trace(program),
+                                      register_conform(program),   register_list(program),    register_explain(program),
+                                      register_errormap(program),  register_grade(program),   register_paper(program),
+                                      register_repro(program),     register_compare(program), register_render(program),
+                                      register_reference(program), register_doctor(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {
