@@ -139,9 +139,8 @@ Command register_compare(CLI::App& program) {
   app.add_option("--config", options->config, "TOML file with any of these options; a flag beats the file");
   add_output_flags(app, options->output);
   add_example(app,
-              "  xprimeray validate --suite quick --out before\n"
-              "  xprimeray validate --suite quick --out after\n"
               "  xprimeray compare before after\n"
+              "with `xprimeray validate --suite quick --out before`, and `--out after`, run earlier.\n"
               "Exit code: 0 nothing moved (of reports: no verdict, no row), 1 something did, 2 bad usage.");
   return {&app, [options] { return run_compare(*options); }};
 }
